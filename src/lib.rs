@@ -1,0 +1,6 @@
+//! Exact shadow testing.
+
+pub mod error;
+pub mod scene;
+
+pub use error::{Error, Result};

@@ -1,0 +1,229 @@
+//! From what loaders read to a checked [`Scene`].
+
+use super::{Camera, Light, Material, Object, Scene, Triangle};
+use crate::error::{Error, Result};
+use glam::Vec3;
+
+/// The most vertices or triangles a scene may have: indices are 32 bits, and `object_id` channels hold
+/// them in floats only as far as 2^24 objects go; triangles may be more.
+const MAX_ELEMENTS: usize = 1 << 28;
+
+/// Primitives that a scene leaves out because they can neither be seen nor block.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Dropped {
+    /// Triangles of zero area, decided exactly.
+    pub degenerate: usize,
+    /// Triangles with a NaN or infinite coordinate.
+    pub non_finite: usize,
+}
+
+/// Shading normals of one object.
+#[derive(Debug, Clone)]
+pub struct SmoothNormals {
+    /// Normals in world space, not necessarily of unit length.
+    pub normals: Vec<Vec3>,
+    /// Three indices into `normals` for each triangle of the object.
+    pub corners: Vec<[u32; 3]>,
+}
+
+/// One object as a loader delivers it; indices count from 0 within the object.
+#[derive(Debug, Clone)]
+pub struct ObjectInput {
+    /// The object's name.
+    pub name: String,
+    /// What [`SceneBuilder::add_material`] returned.
+    pub material: u32,
+    /// World-space positions.
+    pub positions: Vec<Vec3>,
+    /// Three indices into `positions` each.
+    pub triangles: Vec<[u32; 3]>,
+    /// Shading normals, if the file has them.
+    pub normals: Option<SmoothNormals>,
+}
+
+/// Collects objects, materials, lights and cameras, and checks them.
+pub struct SceneBuilder {
+    scene: Scene,
+}
+
+impl SceneBuilder {
+    /// An empty scene with one default material (index 0).
+    pub fn new(name: impl Into<String>) -> SceneBuilder {
+        SceneBuilder { scene: Scene::empty(name) }
+    }
+
+    /// Continues a scene that is already there.
+    pub fn extend(scene: Scene) -> SceneBuilder {
+        SceneBuilder { scene }
+    }
+
+    /// Adds a material and returns its index.
+    pub fn add_material(&mut self, material: Material) -> u32 {
+        self.scene.materials.push(material);
+        self.scene.materials.len() as u32 - 1
+    }
+
+    /// Adds a light; a name that is taken gets a number.
+    pub fn add_light(&mut self, mut light: Light) {
+        let wanted = light.name.clone();
+        let mut number = 2;
+        while self.scene.lights.iter().any(|other| other.name == light.name) {
+            light.name = format!("{wanted}-{number}");
+            number += 1;
+        }
+        self.scene.lights.push(light);
+    }
+
+    /// Adds a camera.
+    pub fn add_camera(&mut self, camera: Camera) {
+        self.scene.cameras.push(camera);
+    }
+
+    /// Notes something that the file asks for and that is not drawn; the same line is kept once.
+    pub fn warn(&mut self, warning: impl Into<String>) {
+        let warning = warning.into();
+        if !self.scene.warnings.contains(&warning) {
+            self.scene.warnings.push(warning);
+        }
+    }
+
+    /// Triangles so far; loaders check it before they expand instances.
+    pub fn triangle_count(&self) -> usize {
+        self.scene.triangles.len()
+    }
+
+    /// Adds an object. Triangles with non-finite corners or of zero area are dropped and counted.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if an index is out of range or the scene grows past 2^28 elements.
+    pub fn add_object(&mut self, input: ObjectInput) -> Result<()> {
+        let scene = &mut self.scene;
+        let total = |have: usize, more: usize| have.saturating_add(more) > MAX_ELEMENTS;
+        if total(scene.vertices.len(), input.positions.len())
+            || total(scene.triangles.len(), input.triangles.len())
+        {
+            return Err(Error::Usage(format!("more than {MAX_ELEMENTS} vertices or triangles")));
+        }
+        if input.material as usize >= scene.materials.len() {
+            return Err(Error::Usage(format!("object {}: no material {}", input.name, input.material)));
+        }
+        check_indices(&input)?;
+        let base = scene.vertices.len() as u32;
+        let object = scene.objects.len() as u32;
+        let first = scene.triangles.len() as u32;
+        let mut corners = Vec::new();
+        for (index, triangle) in input.triangles.iter().enumerate() {
+            let points = triangle.map(|v| input.positions[v as usize]);
+            if !points.iter().all(|p| p.is_finite()) {
+                scene.dropped.non_finite += 1;
+            } else if is_degenerate(points) {
+                scene.dropped.degenerate += 1;
+            } else {
+                scene.triangles.push(Triangle { vertices: triangle.map(|v| base + v), object });
+                if let Some(normals) = &input.normals {
+                    corners.push(normals.corners[index]);
+                }
+            }
+        }
+        // Vertices that no kept triangle uses may be anything; a finite stand-in keeps later code simple.
+        scene.vertices.extend(input.positions.iter().map(|&p| if p.is_finite() { p } else { Vec3::ZERO }));
+        scene.objects.push(Object {
+            name: input.name,
+            material: input.material,
+            first,
+            count: scene.triangles.len() as u32 - first,
+            normals: input.normals.map(|n| SmoothNormals { normals: n.normals, corners }),
+        });
+        Ok(())
+    }
+
+    /// The scene as it stands.
+    pub fn into_scene(self) -> Scene {
+        self.scene
+    }
+
+    /// The finished scene. What was dropped is said among its warnings.
+    pub fn finish(mut self) -> Scene {
+        let Dropped { degenerate, non_finite } = self.scene.dropped;
+        if degenerate > 0 {
+            self.warn(format!("dropped {degenerate} triangles of zero area"));
+        }
+        if non_finite > 0 {
+            self.warn(format!("dropped {non_finite} triangles with NaN or infinite coordinates"));
+        }
+        self.scene
+    }
+}
+
+fn check_indices(input: &ObjectInput) -> Result<()> {
+    let out_of_range = |what: &str, index: u32, count: usize| {
+        Error::Usage(format!("object {}: {what} {index} of {count}", input.name))
+    };
+    for &index in input.triangles.iter().flatten() {
+        if index as usize >= input.positions.len() {
+            return Err(out_of_range("vertex", index, input.positions.len()));
+        }
+    }
+    if let Some(normals) = &input.normals {
+        if normals.corners.len() != input.triangles.len() {
+            return Err(Error::Usage(format!("object {}: normals for other triangles", input.name)));
+        }
+        for &index in normals.corners.iter().flatten() {
+            if index as usize >= normals.normals.len() {
+                return Err(out_of_range("normal", index, normals.normals.len()));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether three finite points lie on one line, exactly: all three axis projections have zero area.
+fn is_degenerate(points: [Vec3; 3]) -> bool {
+    let flat = |u: fn(Vec3) -> f32, v: fn(Vec3) -> f32| {
+        let [a, b, c] = points.map(|p| robust::Coord { x: f64::from(u(p)), y: f64::from(v(p)) });
+        robust::orient2d(a, b, c) == 0.0
+    };
+    flat(|p| p.x, |p| p.y) && flat(|p| p.y, |p| p.z) && flat(|p| p.z, |p| p.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn object(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> ObjectInput {
+        ObjectInput {
+            name: "test".into(),
+            material: 0,
+            positions: positions.iter().map(|&p| Vec3::from(p)).collect(),
+            triangles: triangles.to_vec(),
+            normals: None,
+        }
+    }
+
+    #[test]
+    fn bad_triangles_are_dropped_and_counted_and_the_rest_is_unchanged() {
+        let mut builder = SceneBuilder::new("test");
+        let positions =
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0], [f32::NAN, 0.0, 0.0]];
+        builder.add_object(object(&positions, &[[0, 1, 3], [0, 1, 2], [0, 1, 4], [2, 2, 1]])).unwrap();
+        let scene = builder.finish();
+        assert_eq!(scene.dropped, Dropped { degenerate: 2, non_finite: 1 });
+        assert_eq!(scene.triangles.len(), 1);
+        assert_eq!(scene.corners(0)[1], Vec3::X);
+        assert_eq!(scene.warnings.len(), 2);
+    }
+
+    #[test]
+    fn an_index_out_of_range_is_an_error() {
+        let mut builder = SceneBuilder::new("test");
+        let error = builder.add_object(object(&[[0.0; 3]], &[[0, 0, 1]])).unwrap_err();
+        assert_eq!(error.to_string(), "object test: vertex 1 of 1");
+    }
+
+    #[test]
+    fn a_needle_of_one_ulp_is_not_degenerate() {
+        let above = 1.0f32.next_up();
+        assert!(!is_degenerate([Vec3::ZERO, Vec3::ONE, Vec3::new(1.0, 1.0, above)]));
+        assert!(is_degenerate([Vec3::ZERO, Vec3::ONE, Vec3::splat(above)]));
+    }
+}

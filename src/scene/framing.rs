@@ -1,0 +1,79 @@
+//! A camera, a key light and a floor for a scene that comes without them.
+
+use super::{Camera, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder};
+use crate::error::{Error, Result};
+use glam::Vec3;
+
+/// Whether a mesh that gets its lights from us gets a floor too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Framing {
+    /// A square floor under the lowest point.
+    WithFloor,
+    /// Nothing is added but what is missing to see anything.
+    WithoutFloor,
+}
+
+/// Half the edge of the floor, in radii of the scene.
+const FLOOR_RADII: f32 = 6.0;
+
+/// Completes a scene: a camera if there is none, a key light and a floor if there is no light. What was
+/// added is returned, a line each.
+///
+/// The scene's up axis is taken to be y. The floor is a new last object, so the numbers of the file's
+/// objects stay.
+///
+/// # Errors
+/// [`Error::Usage`] if the scene has no triangle.
+pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
+    let (low, high) =
+        scene.bounds().ok_or_else(|| Error::Usage(format!("{}: the scene has no triangles", scene.name)))?;
+    let centre = (low * 0.5) + (high * 0.5);
+    let radius = ((high - low).length() * 0.5).max(f32::MIN_POSITIVE);
+    let mut added = Vec::new();
+    if scene.cameras.is_empty() {
+        let origin = centre + radius * Vec3::new(0.9, 0.85, 2.7);
+        scene.cameras.push(Camera::look_at(
+            "framed",
+            origin,
+            centre - 0.12 * radius * Vec3::Y,
+            Vec3::Y,
+            38.0,
+        ));
+        added.push("camera `framed`".into());
+    }
+    if scene.lights.is_empty() {
+        let offset = radius * Vec3::new(-2.2, 3.4, 2.4);
+        let strength = 3.0 * offset.length_squared();
+        scene.lights.push(Light {
+            name: "key".into(),
+            point: PointLight {
+                position: centre + offset,
+                intensity: [strength, strength * 0.97, strength * 0.92],
+                range: None,
+            },
+        });
+        added.push("light `key`".into());
+        if framing == Framing::WithFloor {
+            add_floor(scene, centre, low.y, radius)?;
+            added.push("object `floor`".into());
+        }
+    }
+    Ok(added)
+}
+
+fn add_floor(scene: &mut Scene, centre: Vec3, height: f32, radius: f32) -> Result<()> {
+    let half = FLOOR_RADII * radius;
+    let corner = |sx: f32, sz: f32| Vec3::new(centre.x + sx * half, height, centre.z + sz * half);
+    let mut builder = SceneBuilder::extend(std::mem::replace(scene, Scene::empty("")));
+    let material =
+        builder.add_material(Material { name: "floor".into(), diffuse: [0.55; 3], ..Material::default() });
+    builder.add_object(ObjectInput {
+        name: "floor".into(),
+        material,
+        positions: vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        normals: None,
+    })?;
+    *scene = builder.into_scene();
+    Ok(())
+}

@@ -1,0 +1,111 @@
+//! The world before anybody looks at it: objects made of triangles, materials, lights and cameras.
+//!
+//! Everything is in world space, in f32, after one rounding of the transforms; from then on those numbers
+//! are the scene, exactly. Objects are numbered as in the 1986 paper: object m, surface n, both from 1
+//! when they are printed.
+
+mod builder;
+mod camera;
+pub mod formats;
+mod framing;
+mod light;
+mod material;
+
+pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
+pub use camera::{Camera, ImageSize, Raster};
+pub use framing::{Framing, frame};
+pub use light::{Light, PointLight};
+pub use material::Material;
+
+use glam::Vec3;
+
+/// Index of a triangle in [`Scene::triangles`].
+pub type PrimitiveIndex = u32;
+
+/// A triangle of a [`Scene`]: three indices into [`Scene::vertices`], and the object it belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Triangle {
+    /// Indices into [`Scene::vertices`].
+    pub vertices: [u32; 3],
+    /// Index into [`Scene::objects`].
+    pub object: u32,
+}
+
+/// A run of triangles that share a name and a material: object m of the 1986 paper.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// The name that the scene file gives it.
+    pub name: String,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
+    /// First triangle in [`Scene::triangles`]; surface n (from 1) is triangle `first + n - 1`.
+    pub first: PrimitiveIndex,
+    /// Number of triangles.
+    pub count: u32,
+    /// Normals for shading alone; they never decide who sees a light.
+    pub normals: Option<SmoothNormals>,
+}
+
+/// A scene, complete and checked: every index is in range, every number finite, no triangle degenerate.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The name it is reported under: the file's name, or `builtin:NAME`.
+    pub name: String,
+    /// Positions in world space.
+    pub vertices: Vec<Vec3>,
+    /// All triangles, object by object.
+    pub triangles: Vec<Triangle>,
+    /// Objects, in the order of the file.
+    pub objects: Vec<Object>,
+    /// Materials, at least one.
+    pub materials: Vec<Material>,
+    /// Lights, in the order of the file; may be empty before [`frame`].
+    pub lights: Vec<Light>,
+    /// Cameras, in the order of the file; may be empty before [`frame`].
+    pub cameras: Vec<Camera>,
+    /// Primitives that were left out, and why.
+    pub dropped: Dropped,
+    /// What the file asks for and is not drawn, a line each.
+    pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// A scene with nothing in it but the default material.
+    pub fn empty(name: impl Into<String>) -> Scene {
+        Scene {
+            name: name.into(),
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            objects: Vec::new(),
+            materials: vec![Material::default()],
+            lights: Vec::new(),
+            cameras: Vec::new(),
+            dropped: Dropped::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The three corners of a triangle, in world space.
+    pub fn corners(&self, primitive: PrimitiveIndex) -> [Vec3; 3] {
+        self.triangles[primitive as usize].vertices.map(|v| self.vertices[v as usize])
+    }
+
+    /// Object m and surface n of a triangle, both counted from 1 as in the 1986 paper.
+    pub fn object_and_surface(&self, primitive: PrimitiveIndex) -> (u32, u32) {
+        let object = self.triangles[primitive as usize].object;
+        (object + 1, primitive - self.objects[object as usize].first + 1)
+    }
+
+    /// The material of a triangle.
+    pub fn material(&self, primitive: PrimitiveIndex) -> &Material {
+        let object = self.triangles[primitive as usize].object;
+        &self.materials[self.objects[object as usize].material as usize]
+    }
+
+    /// The smallest axis-aligned box around all triangles, or `None` for an empty scene.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let mut corners = (0..self.triangles.len() as u32).flat_map(|t| self.corners(t));
+        let first = corners.next()?;
+        Some(corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+    }
+}
