@@ -1,0 +1,196 @@
+//! Sixteen points against one triangle after another: the filter of [`LightTriangle`] in SIMD.
+//!
+//! The same operations in the same order as the scalar filter, written so that the compiler can use the
+//! widest registers it is allowed to; nothing is fused, so every instruction set gives the same bits.
+
+use super::light_triangle::{LightPoint, LightTriangle};
+
+/// Points of one batch.
+pub const LANES: usize = 16;
+
+/// Up to sixteen points relative to one light, coordinate by coordinate.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub struct PointBatch {
+    x: [f32; LANES],
+    y: [f32; LANES],
+    z: [f32; LANES],
+    slack: [f32; LANES],
+}
+
+/// Where a scan of triangles stopped: the first one that some live lane is not clear of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stop {
+    /// Index of the triangle.
+    pub index: usize,
+    /// Live lanes that it certainly blocks, one bit each.
+    pub blocked: u16,
+    /// Live lanes that the filter leaves undecided.
+    pub undecided: u16,
+}
+
+/// An instruction set that the kernels are compiled for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// What the target always has.
+    Portable,
+    /// AVX2.
+    Avx2,
+    /// AVX-512 F, VL, BW and DQ.
+    Avx512,
+}
+
+impl InstructionSet {
+    /// All that there are, the widest last.
+    pub const ALL: [InstructionSet; 3] =
+        [InstructionSet::Portable, InstructionSet::Avx2, InstructionSet::Avx512];
+
+    /// Whether this machine has it.
+    pub fn is_available(self) -> bool {
+        match self {
+            InstructionSet::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512dq")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+
+    /// The widest that this machine has.
+    pub fn best() -> InstructionSet {
+        *InstructionSet::ALL.iter().rev().find(|set| set.is_available()).expect("portable is there")
+    }
+}
+
+impl PointBatch {
+    /// The first sixteen of some points; lanes without a point repeat the first and must not be live.
+    pub fn new(points: &[LightPoint]) -> PointBatch {
+        let lane = |i: usize| points.get(i).unwrap_or(&points[0]);
+        PointBatch {
+            x: std::array::from_fn(|i| lane(i).x),
+            y: std::array::from_fn(|i| lane(i).y),
+            z: std::array::from_fn(|i| lane(i).z),
+            slack: std::array::from_fn(|i| lane(i).slack),
+        }
+    }
+
+    /// The first triangle at or after `start` that one of the live lanes is not clear of.
+    pub fn scan(
+        &self,
+        instruction_set: InstructionSet,
+        triangles: &[LightTriangle],
+        start: usize,
+        live: u16,
+    ) -> Option<Stop> {
+        assert!(instruction_set.is_available(), "{instruction_set:?} on a machine without it");
+        match instruction_set {
+            InstructionSet::Portable => scan(self, triangles, start, live),
+            // SAFETY: the machine has the instructions, as asserted above.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => unsafe { scan_avx2(self, triangles, start, live) },
+            // SAFETY: the machine has the instructions, as asserted above.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => unsafe { scan_avx512(self, triangles, start, live) },
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => scan(self, triangles, start, live),
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn scan_avx2(batch: &PointBatch, triangles: &[LightTriangle], start: usize, live: u16) -> Option<Stop> {
+    scan(batch, triangles, start, live)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512bw,avx512dq")]
+fn scan_avx512(batch: &PointBatch, triangles: &[LightTriangle], start: usize, live: u16) -> Option<Stop> {
+    scan(batch, triangles, start, live)
+}
+
+#[inline(always)]
+fn scan(batch: &PointBatch, triangles: &[LightTriangle], start: usize, live: u16) -> Option<Stop> {
+    for (index, t) in triangles.iter().enumerate().skip(start) {
+        let mut clear = [false; LANES];
+        let mut blocked = [true; LANES];
+        for k in 0..4 {
+            for i in 0..LANES {
+                let value = ((t.x[k] * batch.x[i] + t.y[k] * batch.y[i]) + t.z[k] * batch.z[i]) - t.offset[k];
+                clear[i] |= value < -batch.slack[i];
+                blocked[i] &= value > batch.slack[i];
+            }
+        }
+        let touched = !mask(&clear) & live;
+        if touched != 0 {
+            let blocked = mask(&blocked) & touched;
+            return Some(Stop { index, blocked, undecided: touched & !blocked });
+        }
+    }
+    None
+}
+
+#[inline(always)]
+fn mask(lanes: &[bool; LANES]) -> u16 {
+    lanes.iter().enumerate().fold(0, |mask, (i, &lane)| mask | u16::from(lane) << i)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Filtered;
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_instruction_set_agrees_with_the_scalar_filter(
+            corners in prop::collection::vec(prop::array::uniform9(-2i8..3), 1..20),
+            points in prop::collection::vec(prop::array::uniform3(-3i8..4), 1..17),
+            live in any::<u16>(),
+        ) {
+            let light = Vec3::new(0.25, 0.5, 3.0);
+            let triangles: Vec<LightTriangle> = corners
+                .iter()
+                .map(|c| c.map(f32::from))
+                .filter_map(|c| {
+                    let corner = |i: usize| Vec3::new(c[i], c[i + 1], c[i + 2]);
+                    LightTriangle::new(light, [corner(0), corner(3), corner(6)])
+                })
+                .collect();
+            let points: Vec<LightPoint> = points
+                .iter()
+                .map(|p| LightPoint::new(light, Vec3::from(p.map(f32::from)).as_dvec3()))
+                .collect();
+            let live = live & (u32::MAX >> (32 - points.len())) as u16;
+            let expected: Vec<Stop> = triangles
+                .iter()
+                .enumerate()
+                .map(|(index, t)| {
+                    let lanes = |wanted: Filtered| {
+                        points.iter().enumerate().fold(0, |m, (i, p)| m | u16::from(t.classify(p) == wanted) << i) & live
+                    };
+                    Stop { index, blocked: lanes(Filtered::Blocks), undecided: lanes(Filtered::Undecided) }
+                })
+                .filter(|stop| stop.blocked | stop.undecided != 0)
+                .collect();
+            let batch = PointBatch::new(&points);
+            for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+                let mut found = Vec::new();
+                let mut start = 0;
+                while let Some(stop) = batch.scan(set, &triangles, start, live) {
+                    found.push(stop);
+                    start = stop.index + 1;
+                }
+                prop_assert_eq!(&found, &expected);
+            }
+        }
+    }
+}

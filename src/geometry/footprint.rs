@@ -1,0 +1,269 @@
+//! Which boxes of a grid a triangle's projection can touch: a superset, row by row.
+//!
+//! The grid lies on the plane z = 1 in front of an apex. Light buffers ask for cells (boxes that tile the
+//! face of the cube), t-buffers for pixel centres (boxes as wide as the rounding of the ray). A box is
+//! marked unless one of the lines of its edges or of the triangle's certainly separates the two, which is
+//! the exact overlap of convex polygons, widened by rounding: the modified scan line of the 1986 paper
+//! without its cases.
+
+use super::ROUNDOFF;
+use super::light_triangle::{OrientedPlanes, Plane};
+use glam::DVec3;
+
+/// A grid of boxes on the plane z = 1. Steps may be negative.
+#[derive(Debug, Clone, Copy)]
+pub struct Grid {
+    /// Centre of box (0, 0).
+    pub origin: [f64; 2],
+    /// From one centre to the next.
+    pub step: [f64; 2],
+    /// Half the extent of a box, widened by whatever the caller's samples may be off.
+    pub half: [f64; 2],
+    /// Columns and rows.
+    pub count: [u32; 2],
+}
+
+impl Grid {
+    /// The four corners of a box.
+    pub fn corners(&self, column: u32, row: u32) -> [[f64; 2]; 4] {
+        let [x, y] = self.centre(column, row);
+        [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)]
+            .map(|(sx, sy)| [x + sx * self.half[0], y + sy * self.half[1]])
+    }
+
+    fn centre(&self, column: u32, row: u32) -> [f64; 2] {
+        [self.origin[0] + self.step[0] * f64::from(column), self.origin[1] + self.step[1] * f64::from(row)]
+    }
+}
+
+/// Where x, y and z of the grid point in world space. The axes need not be orthogonal.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame {
+    axes: [DVec3; 3],
+    /// Rows of the inverse matrix: coordinates of a vector in the frame.
+    dual: [DVec3; 3],
+}
+
+impl Frame {
+    /// A frame of linearly independent axes.
+    pub fn new(x: DVec3, y: DVec3, z: DVec3) -> Frame {
+        let volume = x.dot(y.cross(z));
+        Frame { axes: [x, y, z], dual: [y.cross(z) / volume, z.cross(x) / volume, x.cross(y) / volume] }
+    }
+
+    fn coordinates(&self, v: DVec3) -> DVec3 {
+        DVec3::new(self.dual[0].dot(v), self.dual[1].dot(v), self.dual[2].dot(v))
+    }
+}
+
+/// A linear function a x + b y + c on the grid plane whose values are wrong by at most `slack`.
+#[derive(Debug, Clone, Copy)]
+struct Linear {
+    a: f64,
+    b: f64,
+    c: f64,
+    slack: f64,
+}
+
+impl Linear {
+    /// Roundoff of the plane, of the frame's scalar products and of evaluation, relative to the terms.
+    fn new(plane: &Plane, frame: &Frame, reach: [f64; 2]) -> Linear {
+        let [a, b, c] = frame.axes.map(|axis| axis.dot(plane.normal));
+        let size = frame.axes.map(|axis| axis.abs().dot(plane.size));
+        let slack = 32.0 * ROUNDOFF * (size[0] * reach[0] + size[1] * reach[1] + size[2]);
+        Linear { a, b, c, slack: slack + f64::MIN_POSITIVE }
+    }
+
+    /// Value at a box's centre, and how far it can change inside the box, slack included.
+    fn over_box(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
+        let spread = self.a.abs() * grid.half[0] + self.b.abs() * grid.half[1];
+        (self.a * x + self.b * y + self.c, spread + self.slack)
+    }
+}
+
+/// The projection of a triangle on a grid.
+#[derive(Debug, Clone, Copy)]
+pub struct Footprint {
+    edges: [Linear; 3],
+    own: Linear,
+    height: (f64, f64),
+    /// First and last column and row that the projection can touch.
+    columns: [u32; 2],
+    rows: [u32; 2],
+    /// Bounds of z over the part of the triangle inside the grid's frustum.
+    z_range: [f64; 2],
+}
+
+impl Footprint {
+    /// The projection of a triangle, or `None` if it certainly touches no box.
+    pub(crate) fn new(grid: &Grid, frame: &Frame, planes: &OrientedPlanes) -> Option<Footprint> {
+        let reach: [f64; 2] = [0, 1].map(|i| {
+            let last = grid.origin[i] + grid.step[i] * f64::from(grid.count[i] - 1);
+            grid.origin[i].abs().max(last.abs()) + grid.half[i]
+        });
+        let corners = planes.corners.map(|u| frame.coordinates(u));
+        let clipped = Clipped::new(corners, reach)?;
+        let columns = box_range(grid, 0, clipped.x)?;
+        let rows = box_range(grid, 1, clipped.y)?;
+        let linear = |plane: &Plane| Linear::new(plane, frame, reach);
+        Some(Footprint {
+            edges: planes.edges.each_ref().map(linear),
+            own: linear(&planes.own),
+            height: planes.height,
+            columns,
+            rows,
+            z_range: clipped.z,
+        })
+    }
+
+    /// First and last row.
+    pub fn rows(&self) -> [u32; 2] {
+        self.rows
+    }
+
+    /// First and last column.
+    pub fn columns(&self) -> [u32; 2] {
+        self.columns
+    }
+
+    /// First and last column in one row, if any.
+    pub fn span(&self, grid: &Grid, row: u32) -> Option<[u32; 2]> {
+        let y = grid.origin[1] + grid.step[1] * f64::from(row);
+        let [mut first, mut last] = self.columns;
+        for edge in &self.edges {
+            // The corner of the box row that is farthest inside, with the half width in x folded in too.
+            let (centre, spread) = edge.over_box(grid, grid.origin[0], y);
+            let slope = edge.a * grid.step[0];
+            let at_zero = centre + spread;
+            // Boxes i with at_zero + slope * i >= 0, a little wider than the division's rounding.
+            if slope == 0.0 {
+                if at_zero < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let crossing = -at_zero / slope;
+            let margin = 1e-9 + crossing.abs() * 1e-13;
+            if slope > 0.0 {
+                let bound = (crossing - margin).ceil();
+                if bound > f64::from(last) {
+                    return None;
+                }
+                first = first.max(bound.max(0.0) as u32);
+            } else {
+                let bound = (crossing + margin).floor();
+                if bound < f64::from(first) {
+                    return None;
+                }
+                last = last.min(bound as u32);
+            }
+        }
+        (first <= last).then_some([first, last])
+    }
+
+    /// Bounds of z over the triangle inside one box: at most the nearest, at least the farthest.
+    ///
+    /// z = h / (N . (x, y, 1)) on the triangle's plane, clamped to the triangle itself, because a plane seen
+    /// almost edge-on runs away (row 6 of the notes on the 1986 paper).
+    pub fn z_bounds(&self, grid: &Grid, column: u32, row: u32) -> [f64; 2] {
+        let [x, y] = grid.centre(column, row);
+        let (centre, spread) = self.own.over_box(grid, x, y);
+        let (height, height_error) = self.height;
+        let steepest = (centre + spread) * (1.0 + 1e-14);
+        let near = if steepest > 0.0 { (height - height_error) * (1.0 - 1e-14) / steepest } else { 0.0 };
+        let flattest = (centre - spread) * (1.0 - 1e-14);
+        let far =
+            if flattest > 0.0 { (height + height_error) * (1.0 + 1e-14) / flattest } else { f64::INFINITY };
+        [near.max(self.z_range[0]), far.min(self.z_range[1])]
+    }
+
+    /// Whether the triangle's projection certainly covers the whole closed box.
+    pub fn covers(&self, grid: &Grid, column: u32, row: u32) -> bool {
+        let [x, y] = grid.centre(column, row);
+        self.edges.iter().all(|edge| {
+            let (centre, spread) = edge.over_box(grid, x, y);
+            centre > spread
+        })
+    }
+
+    /// Whether the direction through a point of the grid plane certainly meets the triangle's interior.
+    pub fn contains(&self, x: f64, y: f64) -> bool {
+        self.edges.iter().all(|edge| edge.a * x + edge.b * y + edge.c > edge.slack)
+    }
+}
+
+/// The part of a triangle inside the grid's frustum, reduced to bounds: x / z, y / z and z.
+struct Clipped {
+    x: [f64; 2],
+    y: [f64; 2],
+    z: [f64; 2],
+}
+
+impl Clipped {
+    /// Clips against the four sides of the frustum |x| <= reach z, |y| <= reach z, each moved outwards by
+    /// more than the rounding; `None` if nothing is left.
+    fn new(corners: [DVec3; 3], reach: [f64; 2]) -> Option<Clipped> {
+        let size = corners.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max);
+        let slack = size * RELATIVE_SLACK * (1.0 + reach[0] + reach[1]);
+        let mut polygon: Vec<DVec3> = Vec::with_capacity(7);
+        polygon.extend(corners);
+        for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+            polygon = clip(&polygon, |p| reach[axis] * p.z + sign * p[axis] + slack);
+            if polygon.is_empty() {
+                return None;
+            }
+        }
+        let mut bounds = Clipped {
+            x: [f64::INFINITY, f64::NEG_INFINITY],
+            y: [f64::INFINITY, f64::NEG_INFINITY],
+            z: [f64::INFINITY, 0.0],
+        };
+        for p in &polygon {
+            bounds.z[0] = bounds.z[0].min(p.z - 2.0 * slack);
+            bounds.z[1] = bounds.z[1].max(p.z + 2.0 * slack);
+            // Too near to the apex to be projected: it can be anywhere.
+            let near_apex = p.z <= 1024.0 * slack;
+            for (range, axis) in [(&mut bounds.x, 0), (&mut bounds.y, 1)] {
+                if near_apex {
+                    *range = [f64::NEG_INFINITY, f64::INFINITY];
+                } else {
+                    let value = p[axis] / p.z;
+                    let error = 4.0 * slack * (1.0 + value.abs()) / p.z;
+                    *range = [range[0].min(value - error), range[1].max(value + error)];
+                }
+            }
+        }
+        bounds.z[0] = bounds.z[0].max(0.0);
+        (bounds.z[1] > 0.0).then_some(bounds)
+    }
+}
+
+/// Relative to the largest coordinate: above the rounding of corners, frame and clipping together.
+const RELATIVE_SLACK: f64 = 64.0 * ROUNDOFF;
+
+/// The part of a convex polygon where a linear function is not negative (Sutherland and Hodgman).
+fn clip(polygon: &[DVec3], distance: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    let mut inside = Vec::with_capacity(polygon.len() + 1);
+    for (i, &p) in polygon.iter().enumerate() {
+        let q = polygon[(i + 1) % polygon.len()];
+        let (dp, dq) = (distance(p), distance(q));
+        if dp >= 0.0 {
+            inside.push(p);
+        }
+        if (dp >= 0.0) != (dq >= 0.0) {
+            inside.push(p + (q - p) * (dp / (dp - dq)));
+        }
+    }
+    inside
+}
+
+/// The boxes of one axis that a range of grid coordinates can touch.
+fn box_range(grid: &Grid, axis: usize, range: [f64; 2]) -> Option<[u32; 2]> {
+    let index = |value: f64| (value - grid.origin[axis]) / grid.step[axis];
+    let half = grid.half[axis] / grid.step[axis].abs();
+    let (a, b) = (index(range[0]), index(range[1]));
+    let margin = 1e-9 * (1.0 + f64::from(grid.count[axis]));
+    let first = (a.min(b) - half - margin).ceil().max(0.0);
+    let last = (a.max(b) + half + margin).floor().min(f64::from(grid.count[axis] - 1));
+    (first <= last).then(|| [first as u32, last as u32])
+}

@@ -1,0 +1,135 @@
+//! Where rays from one origin meet a triangle: exact hit signs and exact order of two hits.
+//!
+//! Seen from the origin of the rays a triangle is the same four planes as from a light: with the corners
+//! ordered so that det(u0, u1, u2) > 0, a direction d hits the closed triangle at some t > 0 exactly if
+//! (ui x uj) . d >= 0 for the three edges. Then t = h / (N . d), a quotient of positive numbers of degree 3.
+
+use super::expansion::{self, Expansion};
+use super::light_triangle::{OrientedPlanes, orientation};
+use super::{ROUNDOFF, Sign};
+use glam::{DVec3, Vec3};
+use std::cmp::Ordering;
+
+/// A triangle prepared for rays from one origin.
+#[derive(Debug, Clone, Copy)]
+pub struct RayTriangle {
+    origin: Vec3,
+    /// Ordered so that det(u0, u1, u2) > 0.
+    oriented: [Vec3; 3],
+    planes: OrientedPlanes,
+}
+
+/// The ray parameter of a hit in f64, within `error` of the exact one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RayParameter {
+    /// Nearest known value.
+    pub value: f64,
+    /// Bound of its error.
+    pub error: f64,
+}
+
+impl RayTriangle {
+    /// Prepares a triangle; `None` if its plane holds the origin, so that no ray hits it at t > 0.
+    pub fn new(origin: Vec3, corners: [Vec3; 3]) -> Option<RayTriangle> {
+        let oriented = match orientation(origin, corners) {
+            Sign::Zero => return None,
+            Sign::Positive => corners,
+            Sign::Negative => [corners[0], corners[2], corners[1]],
+        };
+        let planes = OrientedPlanes::new(origin.as_dvec3(), oriented.map(Vec3::as_dvec3));
+        Some(RayTriangle { origin, oriented, planes })
+    }
+
+    /// The planes that a footprint on an image or a cube face is made from.
+    pub(crate) fn planes(&self) -> &OrientedPlanes {
+        &self.planes
+    }
+
+    /// Where the ray in an exact direction hits the closed triangle.
+    pub fn hit(&self, direction: Vec3) -> Option<RayParameter> {
+        let d = direction.as_dvec3();
+        for (k, edge) in self.planes.edges.iter().enumerate() {
+            let (value, bound) = edge.dot(d, DVec3::ZERO);
+            let sign = Sign::certain(value, bound).unwrap_or_else(|| self.exact_edge_sign(k, direction));
+            if sign == Sign::Negative {
+                return None;
+            }
+        }
+        let (height, height_error) = self.planes.height;
+        let (slope, slope_error) = self.planes.own.dot(d, DVec3::ZERO);
+        let value = height / slope;
+        let certain = slope > 2.0 * slope_error && value.is_finite();
+        let error = if certain {
+            2.0 * (height_error + value * slope_error) / slope + 4.0 * ROUNDOFF * value
+        } else {
+            f64::INFINITY
+        };
+        Some(RayParameter { value, error })
+    }
+
+    fn exact_edge_sign(&self, k: usize, direction: Vec3) -> Sign {
+        let u = |i: usize| expansion::difference(self.oriented[i % 3], self.origin);
+        expansion::dot(&expansion::cross(&u(k), &u(k + 1)), &direction.to_array().map(Expansion::from)).sign()
+    }
+
+    /// Exact h and N . d, both positive for a direction that hits.
+    fn exact_quotient(&self, direction: Vec3) -> (Expansion, Expansion) {
+        let [a, b, c] = self.oriented;
+        let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
+        (
+            expansion::dot(&normal, &expansion::difference(a, self.origin)),
+            expansion::dot(&normal, &direction.to_array().map(Expansion::from)),
+        )
+    }
+
+    /// Order of the hits of one ray with two triangles of the same origin, exactly.
+    pub fn exact_order(direction: Vec3, first: &RayTriangle, second: &RayTriangle) -> Ordering {
+        let (h1, d1) = first.exact_quotient(direction);
+        let (h2, d2) = second.exact_quotient(direction);
+        match (&(&h1 * &d2) - &(&h2 * &d1)).sign() {
+            Sign::Negative => Ordering::Less,
+            Sign::Zero => Ordering::Equal,
+            Sign::Positive => Ordering::Greater,
+        }
+    }
+}
+
+impl RayParameter {
+    /// The order of two hits of one ray, if their bounds decide it.
+    pub fn certain_order(self, other: RayParameter) -> Option<Ordering> {
+        let bound = (self.error + other.error) * (1.0 + 8.0 * ROUNDOFF);
+        Sign::certain(self.value - other.value, bound).map(|sign| match sign {
+            Sign::Negative => Ordering::Less,
+            _ => Ordering::Greater,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shared_edges_and_vertices_hit_both_triangles_at_the_same_parameter() {
+        let (a, b, c, d) = (
+            Vec3::new(0.0, 0.0, -3.0),
+            Vec3::new(1.0, 0.0, -2.0),
+            Vec3::new(0.0, 1.0, -5.0),
+            Vec3::new(1.0, 1.0, -4.0),
+        );
+        let first = RayTriangle::new(Vec3::ZERO, [a, b, c]).unwrap();
+        let second = RayTriangle::new(Vec3::ZERO, [b, c, d]).unwrap();
+        for direction in [b, c, b + c] {
+            let (t, s) = (first.hit(direction).unwrap(), second.hit(direction).unwrap());
+            assert_eq!(t.certain_order(s), None);
+            assert_eq!(RayTriangle::exact_order(direction, &first, &second), Ordering::Equal);
+        }
+        assert!(first.hit(-b).is_none());
+        assert!(second.hit(a).is_none());
+    }
+
+    #[test]
+    fn a_ray_in_the_plane_misses() {
+        assert!(RayTriangle::new(Vec3::ZERO, [Vec3::X, Vec3::Y, Vec3::ONE - Vec3::Z]).is_none());
+    }
+}

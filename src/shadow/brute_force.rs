@@ -1,0 +1,81 @@
+//! Every triangle for every query: the classical tracer of the 2004 paper, with the native predicates.
+
+use super::{Basis, BuildInput, Casters, Counters, ShadowTester, TesterEntry};
+use crate::error::Result;
+use crate::geometry::LightPoint;
+use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
+use crate::geometry::occlusion::{PreciseQuery, Stage};
+use crate::scene::Scene;
+use crate::visibility::SurfacePoint;
+use glam::Vec3;
+
+/// `brute-force` in the registry.
+pub const ENTRY: TesterEntry = TesterEntry {
+    name: "brute-force",
+    basis: Basis::Exact,
+    build: |input| Ok(Box::new(BruteForce::new(input, InstructionSet::best()))),
+    expected_tests: |casters, queries| casters * queries,
+};
+
+/// All casters of a scene as one light sees them.
+pub struct BruteForce<'a> {
+    scene: &'a Scene,
+    light: Vec3,
+    casters: Casters,
+    instruction_set: InstructionSet,
+}
+
+impl<'a> BruteForce<'a> {
+    /// Prepares the planes of every caster; `instruction_set` must be available.
+    pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> BruteForce<'a> {
+        let casters = Casters::new(input.scene, input.index, input.light);
+        BruteForce { scene: input.scene, light: input.light, casters, instruction_set }
+    }
+
+    fn answer_batch(&self, points: &[SurfacePoint], answers: &mut [bool], counters: &mut Counters) {
+        let relative: Vec<LightPoint> =
+            points.iter().map(|p| LightPoint::new(self.light, p.position)).collect();
+        let batch = PointBatch::new(&relative);
+        let mut live = (u32::MAX >> (32 - points.len())) as u16;
+        let mut start = 0;
+        while let Some(stop) = batch.scan(self.instruction_set, &self.casters.planes, start, live) {
+            counters.tests += (stop.index + 1 - start) as u64 * u64::from(live.count_ones());
+            start = stop.index + 1;
+            let primitive = self.casters.primitives[stop.index];
+            let mut blocked = stop.blocked;
+            for (i, point) in points.iter().enumerate().filter(|(i, _)| stop.undecided >> i & 1 == 1) {
+                // The base surface cannot block its own point (row 15 of the notes on the 1986 paper).
+                if point.primitive() == Some(primitive) {
+                    continue;
+                }
+                counters.undecided += 1;
+                let query = PreciseQuery::new(self.light, point.position, point.exact(self.scene));
+                let (blocks, stage) = query.blocks(self.scene.corners(primitive));
+                counters.exact += u64::from(stage == Stage::Exact);
+                blocked |= u16::from(blocks) << i;
+            }
+            live &= !blocked;
+            if live == 0 {
+                break;
+            }
+        }
+        counters.tests += (self.casters.planes.len() - start) as u64 * u64::from(live.count_ones());
+        for (i, answer) in answers.iter_mut().enumerate() {
+            *answer = live >> i & 1 == 0;
+        }
+    }
+}
+
+impl ShadowTester for BruteForce<'_> {
+    fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        let mut counters = Counters::default();
+        for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
+            self.answer_batch(points, answers, &mut counters);
+        }
+        Ok(counters)
+    }
+
+    fn bytes(&self) -> usize {
+        self.casters.bytes()
+    }
+}

@@ -1,0 +1,167 @@
+//! The arbiter's own culling: a hierarchy of boxes that a segment may meet.
+//!
+//! Boxes are exact (minima and maxima of f32). A box is skipped only if an interval says so, or if the
+//! segment's line passes it by more than a slack far above f64 rounding.
+
+use super::interval::{Box3, Interval};
+use glam::{DVec3, Vec3};
+
+/// Most triangles of a leaf.
+const LEAF: usize = 4;
+
+/// Relative error of a few f64 operations in a row, generously.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+#[derive(Debug, Clone)]
+struct Node {
+    low: Vec3,
+    high: Vec3,
+    content: Content,
+}
+
+#[derive(Debug, Clone)]
+enum Content {
+    /// A range of the reordered triangles.
+    Leaf(std::ops::Range<u32>),
+    /// Two nodes.
+    Inner(u32, u32),
+}
+
+/// Triangles ordered into a tree of boxes.
+#[derive(Debug)]
+pub struct Hierarchy {
+    nodes: Vec<Node>,
+    /// Indices of the triangles, leaf by leaf.
+    order: Vec<u32>,
+}
+
+impl Hierarchy {
+    /// Builds the tree by halving along the longest axis of the centres.
+    pub fn new(triangles: &[[Vec3; 3]]) -> Hierarchy {
+        let mut hierarchy = Hierarchy { nodes: Vec::new(), order: (0..triangles.len() as u32).collect() };
+        if !triangles.is_empty() {
+            let mut order = std::mem::take(&mut hierarchy.order);
+            hierarchy.add(triangles, &mut order, 0);
+            hierarchy.order = order;
+        }
+        hierarchy
+    }
+
+    fn add(&mut self, triangles: &[[Vec3; 3]], order: &mut [u32], first: usize) -> u32 {
+        let corners = || order.iter().flat_map(|&t| triangles[t as usize]);
+        let low = corners().fold(Vec3::INFINITY, Vec3::min);
+        let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let index = self.nodes.len();
+        let leaf = Content::Leaf(first as u32..(first + order.len()) as u32);
+        self.nodes.push(Node { low, high, content: leaf });
+        if order.len() > LEAF {
+            let axis = (high * 0.5 - low * 0.5).max_position();
+            let centre = |&t: &u32| triangles[t as usize].iter().map(|c| f64::from(c[axis])).sum::<f64>();
+            let middle = order.len() / 2;
+            order.select_nth_unstable_by(middle, |a, b| centre(a).total_cmp(&centre(b)));
+            let (left, right) = order.split_at_mut(middle);
+            let left = self.add(triangles, left, first);
+            let right = self.add(triangles, right, first + middle);
+            self.nodes[index].content = Content::Inner(left, right);
+        }
+        index as u32
+    }
+
+    /// Calls `visit` with every triangle whose box the segment from the light to the point may meet, until
+    /// it returns [`Visit::Stop`].
+    pub fn walk(&self, light: Vec3, point: &Box3, mut visit: impl FnMut(u32) -> Visit) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let segment = Segment::new(light, point);
+        let mut stack = vec![0u32];
+        while let Some(node) = stack.pop() {
+            let node = &self.nodes[node as usize];
+            if segment.passes(node.low.as_dvec3(), node.high.as_dvec3()) {
+                continue;
+            }
+            match &node.content {
+                Content::Inner(left, right) => stack.extend([*left, *right]),
+                Content::Leaf(range) => {
+                    for &triangle in &self.order[range.start as usize..range.end as usize] {
+                        if visit(triangle) == Visit::Stop {
+                            return;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Hierarchy {
+    /// Memory in bytes.
+    pub fn bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>() + self.order.len() * size_of::<u32>()
+    }
+}
+
+/// Whether a walk goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Visit {
+    Continue,
+    Stop,
+}
+
+/// A segment whose far end is known within a box.
+struct Segment {
+    light: DVec3,
+    low: DVec3,
+    high: DVec3,
+    /// From the light to somewhere in the box.
+    direction: DVec3,
+    /// How far the direction may be off, coordinate by coordinate.
+    doubt: DVec3,
+}
+
+impl Segment {
+    fn new(light: Vec3, point: &Box3) -> Segment {
+        let light = light.as_dvec3();
+        let ends = |end: fn(&Interval) -> f64| DVec3::new(end(&point[0]), end(&point[1]), end(&point[2]));
+        let (low, high) = (ends(|i| i.low), ends(|i| i.high));
+        let direction = (low * 0.5 + high * 0.5) - light;
+        let doubt = (high - low) + (low.abs().max(high.abs()) + light.abs()) * ROUNDING;
+        Segment { light, low: low.min(light), high: high.max(light), direction, doubt }
+    }
+
+    /// Whether the segment certainly does not meet a box.
+    fn passes(&self, low: DVec3, high: DVec3) -> bool {
+        if self.high.cmplt(low).any() || self.low.cmpgt(high).any() {
+            return true;
+        }
+        let centre = low * 0.5 + high * 0.5 - self.light;
+        let half = (high - low) * 0.5;
+        // Largest coordinates of the box relative to the light, and what rounding does to its centre.
+        let far = centre.abs() + half;
+        let centre_error = (low.abs() + high.abs() + self.light.abs()) * ROUNDING;
+        [(0, 1), (1, 2), (2, 0)].into_iter().any(|(i, j)| {
+            let (di, dj) = (self.direction[i].abs(), self.direction[j].abs());
+            let distance = (self.direction[i] * centre[j] - self.direction[j] * centre[i]).abs();
+            let reach = di * half[j] + dj * half[i];
+            let slack = di * (centre_error[j] + far[j] * ROUNDING)
+                + dj * (centre_error[i] + far[i] * ROUNDING)
+                + self.doubt[i] * far[j]
+                + self.doubt[j] * far[i];
+            distance > reach + 2.0 * slack
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_triangle_is_in_one_leaf() {
+        let triangles: Vec<_> = (0..100).map(|i| [Vec3::X, Vec3::Y, Vec3::Z].map(|v| v * i as f32)).collect();
+        let hierarchy = Hierarchy::new(&triangles);
+        let mut order = hierarchy.order.clone();
+        order.sort_unstable();
+        assert_eq!(order, (0..100).collect::<Vec<u32>>());
+    }
+}

@@ -1,0 +1,151 @@
+//! Interval arithmetic in f64: every result is widened by one float on both sides, which holds whatever a
+//! correctly rounded operation does.
+
+use std::ops::{Add, Mul, Sub};
+
+/// A closed interval that holds an exact real number. An end may be infinite; NaN never is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// At most the exact number.
+    pub low: f64,
+    /// At least the exact number.
+    pub high: f64,
+}
+
+/// What an interval says about a sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decided {
+    Below,
+    Above,
+    Open,
+}
+
+impl Interval {
+    const EVERYTHING: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+    /// A float, exactly.
+    pub fn exactly(value: f32) -> Interval {
+        Interval { low: f64::from(value), high: f64::from(value) }
+    }
+
+    fn outward(low: f64, high: f64) -> Interval {
+        if low.is_nan() || high.is_nan() {
+            return Interval::EVERYTHING;
+        }
+        Interval { low: low.next_down(), high: high.next_up() }
+    }
+
+    /// The sign of the number, if the interval does not hold zero.
+    pub fn decided(self) -> Decided {
+        if self.low > 0.0 {
+            Decided::Above
+        } else if self.high < 0.0 {
+            Decided::Below
+        } else {
+            Decided::Open
+        }
+    }
+
+    /// Quotient; everything if the divisor may be zero.
+    pub fn divided_by(self, divisor: Interval) -> Interval {
+        if divisor.decided() == Decided::Open {
+            return Interval::EVERYTHING;
+        }
+        let ends = [
+            self.low / divisor.low,
+            self.low / divisor.high,
+            self.high / divisor.low,
+            self.high / divisor.high,
+        ];
+        Interval::hull(ends)
+    }
+
+    fn hull(ends: [f64; 4]) -> Interval {
+        if ends.iter().any(|e| e.is_nan()) {
+            return Interval::EVERYTHING;
+        }
+        Interval::outward(
+            ends.into_iter().fold(f64::INFINITY, f64::min),
+            ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        )
+    }
+}
+
+impl Add for Interval {
+    type Output = Interval;
+
+    fn add(self, other: Interval) -> Interval {
+        Interval::outward(self.low + other.low, self.high + other.high)
+    }
+}
+
+impl Sub for Interval {
+    type Output = Interval;
+
+    fn sub(self, other: Interval) -> Interval {
+        Interval::outward(self.low - other.high, self.high - other.low)
+    }
+}
+
+impl Mul for Interval {
+    type Output = Interval;
+
+    fn mul(self, other: Interval) -> Interval {
+        Interval::hull([
+            self.low * other.low,
+            self.low * other.high,
+            self.high * other.low,
+            self.high * other.high,
+        ])
+    }
+}
+
+/// Three intervals.
+pub type Box3 = [Interval; 3];
+
+/// The exact point of three floats.
+pub fn point(p: glam::Vec3) -> Box3 {
+    p.to_array().map(Interval::exactly)
+}
+
+/// Difference of two vectors.
+pub fn minus(a: &Box3, b: &Box3) -> Box3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Scalar product.
+pub fn dot(a: &Box3, b: &Box3) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product.
+pub fn cross(a: &Box3, b: &Box3) -> Box3 {
+    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn results_hold_the_exact_number(a in any::<f32>(), b in any::<f32>()) {
+            prop_assume!(a.is_finite() && b.is_finite() && a != 0.0 && b != 0.0);
+            let (ia, ib) = (Interval::exactly(a), Interval::exactly(b));
+            let (fa, fb) = (f64::from(a), f64::from(b));
+            // A product of two f32 is exact in f64; sums and quotients are rounded once.
+            prop_assert!((ia * ib).low < fa * fb && fa * fb < (ia * ib).high);
+            for (interval, rounded) in [(ia + ib, fa + fb), (ia - ib, fa - fb), (ia.divided_by(ib), fa / fb)] {
+                prop_assert!(interval.low < rounded && rounded < interval.high);
+            }
+        }
+    }
+
+    #[test]
+    fn a_divisor_around_zero_gives_everything() {
+        let one = Interval::exactly(1.0);
+        assert_eq!(one.divided_by(Interval { low: -1.0, high: 1.0 }), Interval::EVERYTHING);
+    }
+}

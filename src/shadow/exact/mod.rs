@@ -1,0 +1,208 @@
+//! The arbiter: truth about a shadow query, by exact arithmetic and nothing that it judges.
+//!
+//! It has its own interval arithmetic, its own integers, its own culling and its own first stage; it shares
+//! only the definition of a query with the testers. [`plain`] is the same answer without any culling or
+//! filter, for checking the arbiter itself.
+
+mod hierarchy;
+mod integer;
+mod interval;
+pub mod plain;
+mod touching;
+
+use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
+use crate::error::Result;
+use crate::geometry::ExactPosition;
+use crate::scene::Scene;
+use crate::visibility::{PointSource, SurfacePoint};
+use glam::Vec3;
+use hierarchy::{Hierarchy, Visit};
+use integer::Meeting;
+use interval::{Box3, Decided, cross, dot, minus};
+
+/// `exact` in the registry.
+pub const ENTRY: TesterEntry = TesterEntry {
+    name: "exact",
+    basis: Basis::Truth,
+    build: |input| Ok(Box::new(Arbiter::new(input))),
+    expected_tests: |_, queries| 100.0 * queries,
+};
+
+/// The truth about one query.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Truth {
+    /// Whether the light is hidden or seen.
+    pub occlusion: Occlusion,
+    /// Whether the query is on the edge between the two.
+    pub contact: Contact,
+}
+
+/// Whether anything blocks the segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Occlusion {
+    /// Nothing blocks.
+    Lit,
+    /// Something does.
+    Occluded,
+}
+
+/// TRUTH, "Touching".
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contact {
+    /// The segment passes through triangles or past them.
+    Clear,
+    /// It meets only boundaries that do not close around it, or it ends on a triangle outside the
+    /// receiver's plane.
+    Touching,
+}
+
+/// Decides every query of one light.
+pub struct Arbiter<'a> {
+    scene: &'a Scene,
+    light: Vec3,
+    triangles: Vec<[Vec3; 3]>,
+    hierarchy: Hierarchy,
+    /// Whether the light itself lies on a triangle.
+    light_contact: Contact,
+}
+
+impl<'a> Arbiter<'a> {
+    /// Prepares the hierarchy over all triangles.
+    pub fn new(input: &BuildInput<'a>) -> Arbiter<'a> {
+        let scene = input.scene;
+        let triangles: Vec<_> = (0..scene.triangles.len() as u32).map(|t| scene.corners(t)).collect();
+        let hierarchy = Hierarchy::new(&triangles);
+        let mut arbiter =
+            Arbiter { scene, light: input.light, triangles, hierarchy, light_contact: Contact::Clear };
+        arbiter.light_contact = arbiter.contact_of_light();
+        arbiter
+    }
+
+    /// A light on a triangle is the end of every segment: seen from any other point it "ends on" it.
+    fn contact_of_light(&self) -> Contact {
+        let position = ExactPosition::Bare(self.light);
+        let mut contact = Contact::Clear;
+        self.hierarchy.walk(self.light, &interval::point(self.light), |t| {
+            let corners = self.triangles[t as usize];
+            // An eye off the triangle's plane decides whether the light lies on it.
+            let eyes = [Vec3::X, Vec3::Y, Vec3::Z]
+                .map(|axis| self.light + axis * self.light.abs().max_element().max(1.0));
+            if eyes.into_iter().any(|eye| integer::meet(eye, corners, &position) == Meeting::EndsOn) {
+                contact = Contact::Touching;
+            }
+            Visit::Continue
+        });
+        contact
+    }
+
+    /// The truth about one point.
+    pub fn decide(&self, point: &SurfacePoint) -> Truth {
+        let position = point.exact(self.scene);
+        let relative = relative_box(&position, self.light);
+        let absolute = absolute_box(&relative, self.light);
+        let receiver = match point.source {
+            PointSource::Ray { primitive, .. } => Some(self.scene.corners(primitive)),
+            PointSource::Bare => None,
+        };
+        let mut passes_through = false;
+        let mut boundaries = Vec::new();
+        let mut ends_on = false;
+        self.hierarchy.walk(self.light, &absolute, |t| {
+            let corners = self.triangles[t as usize];
+            let meeting = match meet_in_intervals(self.light, corners, &relative) {
+                Some(meeting) => meeting,
+                None => integer::meet(self.light, corners, &position),
+            };
+            match meeting {
+                Meeting::Misses => {}
+                Meeting::Interior => {
+                    passes_through = true;
+                    return Visit::Stop;
+                }
+                Meeting::Boundary(_) => boundaries.push(corners),
+                Meeting::EndsOn => ends_on |= !receiver.is_some_and(|r| integer::is_coplanar(r, corners)),
+            }
+            Visit::Continue
+        });
+        let occluded = passes_through || !boundaries.is_empty();
+        let touching = !passes_through
+            && (ends_on
+                || self.light_contact == Contact::Touching
+                || (occluded && touching::leaves_a_gap(self.light, &position, &boundaries)));
+        Truth {
+            occlusion: if occluded { Occlusion::Occluded } else { Occlusion::Lit },
+            contact: if touching { Contact::Touching } else { Contact::Clear },
+        }
+    }
+}
+
+/// An interval box around the exact point minus the light.
+fn relative_box(position: &ExactPosition, light: Vec3) -> Box3 {
+    let light = interval::point(light);
+    match *position {
+        ExactPosition::Bare(p) => minus(&interval::point(p), &light),
+        ExactPosition::OnRay { origin, direction, triangle } => {
+            let [a, b, c] = triangle.map(interval::point);
+            let (o, d) = (interval::point(origin), interval::point(direction));
+            let normal = cross(&minus(&b, &a), &minus(&c, &a));
+            let t = dot(&normal, &minus(&a, &o)).divided_by(dot(&normal, &d));
+            let start = minus(&o, &light);
+            [0, 1, 2].map(|i| start[i] + t * d[i])
+        }
+    }
+}
+
+fn absolute_box(relative: &Box3, light: Vec3) -> Box3 {
+    let light = interval::point(light);
+    [0, 1, 2].map(|i| relative[i] + light[i])
+}
+
+/// Meets a triangle as far as intervals decide; boundaries and ends are left to integers.
+fn meet_in_intervals(light: Vec3, corners: [Vec3; 3], point: &Box3) -> Option<Meeting> {
+    let light = interval::point(light);
+    let corner = corners.map(interval::point);
+    let u = corner.map(|c| minus(&c, &light));
+    let normal = cross(&minus(&corner[1], &corner[0]), &minus(&corner[2], &corner[0]));
+    let volume = dot(&normal, &u[0]).decided();
+    let mut all_inside = true;
+    let (mut above, mut below) = (false, false);
+    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+        match dot(&cross(&u[i], &u[j]), point).decided() {
+            Decided::Above => above = true,
+            Decided::Below => below = true,
+            Decided::Open => all_inside = false,
+        }
+    }
+    // Opposite signs miss whatever the orientation is.
+    if above && below {
+        return Some(Meeting::Misses);
+    }
+    let orientation = match volume {
+        Decided::Open => return None,
+        decided => decided,
+    };
+    let outside = if orientation == Decided::Above { below } else { above };
+    if outside {
+        return Some(Meeting::Misses);
+    }
+    let depth = dot(&normal, &minus(point, &u[0])).decided();
+    match depth {
+        Decided::Open => None,
+        side if side != orientation => Some(Meeting::Misses),
+        _ if all_inside => Some(Meeting::Interior),
+        _ => None,
+    }
+}
+
+impl ShadowTester for Arbiter<'_> {
+    fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        for (point, answer) in points.iter().zip(answers) {
+            *answer = self.decide(point).occlusion == Occlusion::Occluded;
+        }
+        Ok(Counters::default())
+    }
+
+    fn bytes(&self) -> usize {
+        self.triangles.len() * size_of::<[Vec3; 3]>() + self.hierarchy.bytes()
+    }
+}

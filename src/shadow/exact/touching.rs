@@ -1,0 +1,131 @@
+//! Touching: does a segment that meets only boundaries slip past them, or do they close around it?
+//!
+//! Where the segment meets the boundary of a triangle, the triangle fills a wedge of the plane across the
+//! segment: half of it at an edge, less at a corner. If the closed wedges at one point of the segment cover
+//! the full turn, moving the segment a little still hits: the surface is tight there. Otherwise the segment
+//! touches a silhouette or a rim.
+
+use super::integer::{IntegerVector, Meeting, RelativePoint, Scale, cross, dot, meet, minus, scale_of, sign};
+use crate::geometry::ExactPosition;
+use dashu_int::IBig;
+use glam::Vec3;
+
+/// Whether the triangles, all met on their boundaries only, leave a gap at each point where the segment
+/// meets them.
+pub fn leaves_a_gap(light: Vec3, position: &ExactPosition, met: &[[Vec3; 3]]) -> bool {
+    let scale = met.iter().fold(scale_of(position, light), |s, corners| s.finer(Scale::of(*corners)));
+    let point = RelativePoint::new(position, light, scale);
+    let mut groups: Vec<Place> = Vec::new();
+    for &corners in met {
+        let Meeting::Boundary(edges) = meet(light, corners, position) else { continue };
+        let fraction = fraction_along(light, corners, &point, scale);
+        let wedge = Wedge { edges };
+        match groups.iter_mut().find(|place| place.fraction.equals(&fraction)) {
+            Some(place) => place.wedges.push(wedge),
+            None => groups.push(Place { fraction, wedges: vec![wedge] }),
+        }
+    }
+    !groups.iter().any(|place| covers_full_turn(&place.wedges, &point.xyz))
+}
+
+/// A point of the segment and what meets it there.
+struct Place {
+    fraction: Fraction,
+    wedges: Vec<Wedge>,
+}
+
+/// numerator / denominator with a positive denominator.
+struct Fraction {
+    numerator: IBig,
+    denominator: IBig,
+}
+
+impl Fraction {
+    fn equals(&self, other: &Fraction) -> bool {
+        &self.numerator * &other.denominator == &other.numerator * &self.denominator
+    }
+}
+
+/// Where between light (0) and point (1) the segment meets the plane, up to a factor common to all planes.
+fn fraction_along(light: Vec3, corners: [Vec3; 3], point: &RelativePoint, scale: Scale) -> Fraction {
+    let origin = scale.point(light);
+    let u = corners.map(|c| minus(&scale.point(c), &origin));
+    let normal = cross(&minus(&u[1], &u[0]), &minus(&u[2], &u[0]));
+    let (numerator, denominator) = (dot(&normal, &u[0]), dot(&normal, &point.xyz));
+    if sign(&denominator) < 0 {
+        Fraction { numerator: -numerator, denominator: -denominator }
+    } else {
+        Fraction { numerator, denominator }
+    }
+}
+
+/// The directions across the segment that stay on the triangle: those on the inner side of its edges here.
+struct Wedge {
+    edges: Vec<IntegerVector>,
+}
+
+impl Wedge {
+    /// The ray at which the wedge ends in the counter-clockwise sense about `axis`.
+    fn end(&self, axis: &IntegerVector) -> Option<IntegerVector> {
+        self.edges.iter().enumerate().find_map(|(k, edge)| {
+            let ray = cross(axis, edge);
+            let inside =
+                self.edges.iter().enumerate().all(|(other, e)| other == k || sign(&dot(e, &ray)) >= 0);
+            inside.then_some(ray)
+        })
+    }
+
+    /// Whether the wedge holds a ray and what follows it counter-clockwise.
+    fn continues(&self, ray: &IntegerVector, axis: &IntegerVector) -> bool {
+        let onwards = cross(axis, ray);
+        self.edges.iter().all(|edge| match sign(&dot(edge, ray)) {
+            0 => sign(&dot(edge, &onwards)) > 0,
+            s => s > 0,
+        })
+    }
+}
+
+fn covers_full_turn(wedges: &[Wedge], axis: &IntegerVector) -> bool {
+    wedges
+        .iter()
+        .filter_map(|wedge| wedge.end(axis))
+        .all(|end| wedges.iter().any(|w| w.continues(&end, axis)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIGHT: Vec3 = Vec3::new(0.0, 0.0, 8.0);
+
+    fn gap(point: [f32; 3], met: &[[Vec3; 3]]) -> bool {
+        leaves_a_gap(LIGHT, &ExactPosition::Bare(Vec3::from(point)), met)
+    }
+
+    #[test]
+    fn the_edge_of_one_sheet_leaves_a_gap_and_a_shared_edge_does_not() {
+        let left = [Vec3::ZERO, Vec3::Y, Vec3::NEG_X];
+        let right = [Vec3::ZERO, Vec3::Y, Vec3::X];
+        // Through (0, 1/4, 0), on both triangles' common edge.
+        let below = [0.0, 0.5, -8.0];
+        assert!(gap(below, &[left]));
+        assert!(!gap(below, &[left, right]));
+        // Both on the same side: a fold, a silhouette.
+        assert!(gap(below, &[left, [Vec3::ZERO, Vec3::Y, Vec3::new(-1.0, 0.0, 1.0)]]));
+    }
+
+    #[test]
+    fn a_fan_of_four_closes_around_its_hub_and_three_of_them_do_not() {
+        let rim = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y];
+        let fan: Vec<_> = (0..4).map(|i| [Vec3::ZERO, rim[i], rim[(i + 1) % 4]]).collect();
+        assert!(!gap([0.0, 0.0, -1.0], &fan));
+        assert!(gap([0.0, 0.0, -1.0], &fan[..3]));
+    }
+
+    #[test]
+    fn half_sheets_at_different_depths_do_not_close_together() {
+        let left = [Vec3::ZERO, Vec3::Y, Vec3::NEG_X];
+        let lower = [Vec3::new(0.0, 0.0, -4.0), Vec3::new(0.0, 1.0, -4.0), Vec3::new(1.0, 0.0, -4.0)];
+        assert!(gap([0.0, 0.5, -8.0], &[left, lower]));
+    }
+}

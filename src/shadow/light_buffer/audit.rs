@@ -1,0 +1,107 @@
+//! Checks a finished buffer against its own definition.
+
+use super::cube;
+use super::{FaceLists, LightBuffer};
+use crate::geometry::ExactPosition;
+use crate::geometry::occlusion::PreciseQuery;
+use glam::Vec3;
+
+/// What an audit looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Audit {
+    /// Cells whose lists were checked.
+    pub cells: u64,
+    /// Records that were checked.
+    pub records: u64,
+    /// Directions to corners and centres of triangles whose cell was looked up.
+    pub directions: u64,
+}
+
+impl LightBuffer<'_> {
+    /// Checks the invariants of the structure: headers in order, records ascending and of existing casters,
+    /// nothing behind a full occlusion, and every triangle present in the cells of its corners and centre
+    /// unless these cells may leave it out.
+    ///
+    /// # Errors
+    /// The first violation, in words.
+    pub fn validate(&self) -> Result<Audit, String> {
+        let mut audit = Audit { cells: 0, records: 0, directions: 0 };
+        for lists in self.faces.iter().flatten() {
+            self.validate_lists(lists, &mut audit)?;
+        }
+        for caster in 0..self.casters.primitives.len() as u32 {
+            let corners = self.scene.corners(self.casters.primitives[caster as usize]);
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            for point in corners.into_iter().chain([centre]) {
+                self.validate_presence(caster, corners, point)?;
+                audit.directions += 1;
+            }
+        }
+        Ok(audit)
+    }
+
+    fn validate_lists(&self, lists: &FaceLists, audit: &mut Audit) -> Result<(), String> {
+        let cells = lists.count[0] as usize * lists.count[1] as usize;
+        if lists.headers.len() != cells + 1 || lists.headers[cells].start as usize != lists.records.len() {
+            return Err("headers do not span the records".into());
+        }
+        for cell in 0..cells {
+            if lists.headers[cell].start > lists.headers[cell + 1].start {
+                return Err(format!("cell {cell}: its list ends before it begins"));
+            }
+            let (full_occlusion, list) = lists.list(cell);
+            if !list.is_sorted_by(|a, b| a.near <= b.near) {
+                return Err(format!("cell {cell}: records out of order"));
+            }
+            if list.iter().any(|r| !(r.near >= 0.0) || r.caster as usize >= self.casters.planes.len()) {
+                return Err(format!("cell {cell}: a record without depth or caster"));
+            }
+            if list.last().is_some_and(|r| r.near > full_occlusion) {
+                return Err(format!("cell {cell}: a record behind the full occlusion"));
+            }
+            audit.cells += 1;
+            audit.records += list.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// A point on a triangle's rounded surface lies in a cell that lists it, cuts it off behind a full
+    /// occlusion, or has no list because the triangle is alone there.
+    fn validate_presence(&self, caster: u32, corners: [Vec3; 3], point: Vec3) -> Result<(), String> {
+        // The centre is rounded and may lie beside a needle; only cells that the triangle meets count.
+        let is_corner = corners.contains(&point);
+        let query = PreciseQuery::new(self.light, point.as_dvec3(), ExactPosition::Bare(point));
+        let resolution = self.statistics.resolution;
+        let Some((at, _)) = cube::locate(self.light, point.as_dvec3(), resolution, &query) else {
+            return Ok(());
+        };
+        let missing = || format!("caster {caster}: missing at {point} in cell {} {}", at.column, at.row);
+        let lists = self.faces[at.face.index()].as_ref();
+        let Some((lists, cell)) = lists.and_then(|l| Some((l, l.cell(at.column, at.row)?))) else {
+            return if is_corner { Err(missing()) } else { Ok(()) };
+        };
+        let (full_occlusion, list) = lists.list(cell);
+        let listed = list.iter().find(|r| r.caster == caster);
+        let excused = list.is_empty() || full_occlusion < f32::INFINITY;
+        match listed {
+            Some(record) if f64::from(record.near) > at.z_high && is_corner => {
+                Err(format!("caster {caster}: depth {} behind its own corner {point}", record.near))
+            }
+            None if is_corner && !excused => Err(missing()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Columns and rows of the closed cells of a face that a predicate holds for, against the lists: the
+    /// test suite compares them with exact overlaps.
+    #[cfg(test)]
+    pub(super) fn cells_of(&self, caster: u32, face: cube::Face) -> Vec<[u32; 2]> {
+        let Some(lists) = &self.faces[face.index()] else { return Vec::new() };
+        let [columns, rows] = cube::face_grid(self.statistics.resolution).count;
+        let all = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+        all.filter(|&[column, row]| {
+            lists.cell(column, row).is_some_and(|cell| lists.list(cell).1.iter().any(|r| r.caster == caster))
+        })
+        .collect()
+    }
+}

@@ -1,0 +1,254 @@
+//! Casting: every triangle into every cell that its projection can touch, then one list a cell.
+//!
+//! Faces are made only where triangles project, and of a face only the rectangle of cells that they touch.
+//! Lists stand end to end in one array (compressed rows), their starts and the full-occlusion depths in
+//! another.
+
+use super::cell::{self, Candidate, Cover, Dropped};
+use super::convex_cover::ConvexObjects;
+use super::cube::{Face, face_grid};
+use super::{FaceLists, Header, Record, Statistics};
+use crate::error::{Error, Result};
+use crate::geometry::footprint::{Footprint, Grid};
+use crate::geometry::ray_triangle::RayTriangle;
+use crate::shadow::{BuildInput, Casters, Receivers};
+use rayon::prelude::*;
+
+/// A caster's projection on one face.
+pub(super) struct Cast {
+    pub caster: u32,
+    pub footprint: Footprint,
+}
+
+/// The part of a face that triangles project on: first column and row, and their numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Window {
+    pub columns: [u32; 2],
+    pub rows: [u32; 2],
+}
+
+impl Window {
+    fn around(casts: &[Cast]) -> Window {
+        let join = |a: [u32; 2], b: [u32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let empty = Window { columns: [u32::MAX, 0], rows: [u32::MAX, 0] };
+        casts.iter().fold(empty, |w, cast| Window {
+            columns: join(w.columns, cast.footprint.columns()),
+            rows: join(w.rows, cast.footprint.rows()),
+        })
+    }
+
+    fn width(&self) -> usize {
+        (self.columns[1] - self.columns[0] + 1) as usize
+    }
+
+    fn height(&self) -> usize {
+        (self.rows[1] - self.rows[0] + 1) as usize
+    }
+}
+
+/// Casts all casters on all faces.
+pub(super) fn build(
+    input: &BuildInput,
+    casters: &Casters,
+    resolution: u32,
+) -> Result<([Option<FaceLists>; 6], Statistics)> {
+    let grid = face_grid(resolution);
+    let convex = ConvexObjects::new(input, casters);
+    let mut statistics = Statistics { resolution, ..Statistics::default() };
+    let mut faces = [const { None }; 6];
+    for face in Face::ALL {
+        let casts = project(input, casters, face, &grid);
+        if casts.is_empty() {
+            continue;
+        }
+        let window = Window::around(&casts);
+        let bands = bands(&window);
+        let lists: Vec<Band> = bands
+            .into_par_iter()
+            .map(|rows| fill_band(&casts, &grid, &window, rows, input.receivers, &convex))
+            .collect();
+        faces[face.index()] = Some(join(&window, lists, &mut statistics)?);
+    }
+    Ok((faces, statistics))
+}
+
+fn project(input: &BuildInput, casters: &Casters, face: Face, grid: &Grid) -> Vec<Cast> {
+    let frame = face.frame();
+    casters
+        .primitives
+        .par_iter()
+        .enumerate()
+        .filter_map(|(caster, &primitive)| {
+            let triangle = RayTriangle::new(input.light, input.scene.corners(primitive))?;
+            let footprint = Footprint::new(grid, &frame, triangle.planes())?;
+            Some(Cast { caster: caster as u32, footprint })
+        })
+        .collect()
+}
+
+/// Rows in pieces of about equal numbers of cells.
+fn bands(window: &Window) -> Vec<[u32; 2]> {
+    const CELLS: usize = 1 << 16;
+    let rows = (CELLS / window.width()).clamp(1, window.height().div_ceil(16).max(1)) as u32;
+    (window.rows[0]..=window.rows[1])
+        .step_by(rows as usize)
+        .map(|first| [first, (first + rows - 1).min(window.rows[1])])
+        .collect()
+}
+
+/// The lists of some rows, headers relative to the band's own records.
+struct Band {
+    headers: Vec<Header>,
+    records: Vec<Record>,
+    statistics: Statistics,
+}
+
+fn fill_band(
+    casts: &[Cast],
+    grid: &Grid,
+    window: &Window,
+    rows: [u32; 2],
+    receivers: Receivers,
+    convex: &ConvexObjects,
+) -> Band {
+    let width = window.width();
+    let cells = width * (rows[1] - rows[0] + 1) as usize;
+    let cell_of =
+        |column: u32, row: u32| (row - rows[0]) as usize * width + (column - window.columns[0]) as usize;
+    let entries = touched_cells(casts, grid, rows, cell_of);
+    let starts = starts(cells, &entries);
+    let mut order = vec![0u32; entries.len()];
+    let mut next = starts.clone();
+    for (index, &(cell, _)) in entries.iter().enumerate() {
+        order[next[cell as usize] as usize] = index as u32;
+        next[cell as usize] += 1;
+    }
+    let mut band =
+        Band { headers: Vec::with_capacity(cells), records: Vec::new(), statistics: Statistics::default() };
+    let mut candidates = Vec::new();
+    for row in rows[0]..=rows[1] {
+        for column in window.columns[0]..=window.columns[1] {
+            let cell = cell_of(column, row);
+            let members = &order[starts[cell] as usize..starts[cell + 1] as usize];
+            candidates.clear();
+            candidates.extend(members.iter().map(|&index| {
+                let cast = &casts[entries[index as usize].1 as usize];
+                candidate(cast, grid, column, row)
+            }));
+            let single = candidates
+                .iter()
+                .filter(|c| c.cover == Cover::Whole)
+                .map(|c| c.far)
+                .fold(f32::INFINITY, f32::min);
+            let footprint = |k: usize| &casts[entries[members[k] as usize].1 as usize].footprint;
+            let whole_object = convex.cover_depth(&candidates, footprint, grid, column, row);
+            let finished = cell::finish(&mut candidates, single.min(whole_object), receivers);
+            band.headers
+                .push(Header { start: band.records.len() as u32, full_occlusion: finished.full_occlusion });
+            band.records.extend(candidates.iter().map(|c| Record { near: c.near, caster: c.caster }));
+            band.statistics.add_cell(members.len(), &candidates, finished);
+        }
+    }
+    band
+}
+
+/// Pairs of cell and cast for every cell of the rows that a cast can touch.
+fn touched_cells(
+    casts: &[Cast],
+    grid: &Grid,
+    rows: [u32; 2],
+    cell_of: impl Fn(u32, u32) -> usize,
+) -> Vec<(u32, u32)> {
+    let mut entries = Vec::new();
+    for (index, cast) in casts.iter().enumerate() {
+        let [top, bottom] = cast.footprint.rows();
+        for row in top.max(rows[0])..=bottom.min(rows[1]) {
+            if let Some([left, right]) = cast.footprint.span(grid, row) {
+                let first = cell_of(left, row) as u32;
+                entries.extend((first..=first + (right - left)).map(|cell| (cell, index as u32)));
+            }
+        }
+    }
+    entries
+}
+
+/// Start of each cell's entries, and the end of the last.
+fn starts(cells: usize, entries: &[(u32, u32)]) -> Vec<u32> {
+    let mut starts = vec![0u32; cells + 1];
+    for &(cell, _) in entries {
+        starts[cell as usize + 1] += 1;
+    }
+    for i in 0..cells {
+        starts[i + 1] += starts[i];
+    }
+    starts
+}
+
+fn candidate(cast: &Cast, grid: &Grid, column: u32, row: u32) -> Candidate {
+    let [near, far] = cast.footprint.z_bounds(grid, column, row);
+    let cover = if cast.footprint.covers(grid, column, row) { Cover::Whole } else { Cover::Part };
+    Candidate { near: round_down(near), far: round_up(far), caster: cast.caster, cover }
+}
+
+/// The largest f32 not above a non-negative number.
+pub(super) fn round_down(value: f64) -> f32 {
+    let rounded = value as f32;
+    if f64::from(rounded) > value { rounded.next_down() } else { rounded }
+}
+
+/// The smallest f32 not below a non-negative number.
+pub(super) fn round_up(value: f64) -> f32 {
+    let rounded = value as f32;
+    if f64::from(rounded) < value { rounded.next_up() } else { rounded }
+}
+
+/// Bands end to end.
+fn join(window: &Window, bands: Vec<Band>, statistics: &mut Statistics) -> Result<FaceLists> {
+    let records: usize = bands.iter().map(|b| b.records.len()).sum();
+    if u32::try_from(records).is_err() {
+        return Err(Error::Usage(format!(
+            "light buffer: {records} records on one face; choose a lower --resolution"
+        )));
+    }
+    let mut lists = FaceLists {
+        first: [window.columns[0], window.rows[0]],
+        count: [window.width() as u32, window.height() as u32],
+        headers: Vec::with_capacity(window.width() * window.height() + 1),
+        records: Vec::with_capacity(records),
+    };
+    for band in bands {
+        let base = lists.records.len() as u32;
+        lists.headers.extend(band.headers.iter().map(|h| Header { start: base + h.start, ..*h }));
+        lists.records.extend(band.records);
+        statistics.join(&band.statistics);
+    }
+    lists.headers.push(Header { start: lists.records.len() as u32, full_occlusion: f32::INFINITY });
+    statistics.faces += 1;
+    Ok(lists)
+}
+
+impl Statistics {
+    fn add_cell(&mut self, touched: usize, kept: &[Candidate], finished: cell::Finished) {
+        self.cells += 1;
+        self.touched_cells += u64::from(touched > 0);
+        self.non_empty += u64::from(!kept.is_empty());
+        self.records += kept.len() as u64;
+        self.longest_list = self.longest_list.max(kept.len() as u64);
+        self.pruned += u64::from(finished.pruned);
+        self.full_occlusions += u64::from(finished.full_occlusion < f32::INFINITY);
+        self.dropped_lists += u64::from(finished.dropped == Dropped::List);
+        self.dropped_full_occlusions += u64::from(finished.dropped == Dropped::FullOcclusion);
+    }
+
+    fn join(&mut self, other: &Statistics) {
+        self.cells += other.cells;
+        self.touched_cells += other.touched_cells;
+        self.non_empty += other.non_empty;
+        self.records += other.records;
+        self.longest_list = self.longest_list.max(other.longest_list);
+        self.pruned += other.pruned;
+        self.full_occlusions += other.full_occlusions;
+        self.dropped_lists += other.dropped_lists;
+        self.dropped_full_occlusions += other.dropped_full_occlusions;
+    }
+}

@@ -1,0 +1,125 @@
+//! One cell's list: sorted, cut off behind what covers the cell, emptied where nobody can ask.
+//!
+//! Rows 9, 10 and 11 of the notes on the 1986 paper, with the conditions that make them right.
+
+use crate::shadow::Receivers;
+
+/// A triangle in one cell while the cell's list is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// At most the nearest z' of the triangle in the cell.
+    pub near: f32,
+    /// At least the farthest z' of the triangle in the cell.
+    pub far: f32,
+    /// Index among the casters.
+    pub caster: u32,
+    /// How much of the cell its projection covers.
+    pub cover: Cover,
+}
+
+/// How much of a closed cell a projection covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cover {
+    /// Certainly all of it.
+    Whole,
+    /// Perhaps not all.
+    Part,
+}
+
+/// What became of a cell's candidates beside the list itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Finished {
+    /// The full-occlusion depth: whatever is deeper is dark. Infinite if there is none.
+    pub full_occlusion: f32,
+    /// Records cut off behind it.
+    pub pruned: u32,
+    /// What was left out because no receiver can need it.
+    pub dropped: Dropped,
+}
+
+/// Simplifications that rest on all receivers being in the buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dropped {
+    /// Nothing was left out.
+    Nothing,
+    /// A full-occlusion depth with nothing behind it (row 10).
+    FullOcclusion,
+    /// The only polygon of the cell: nothing else can receive its shadow (row 11).
+    List,
+}
+
+/// Sorts and simplifies the candidates of a cell. `cover_depth` is the least farthest depth of all covers,
+/// single triangles and convex objects, or infinite.
+///
+/// Behind a cover everything is dark, so a record whose nearest depth lies behind can go: what it blocks is
+/// deeper still. A record exactly at that depth stays.
+pub fn finish(candidates: &mut Vec<Candidate>, cover_depth: f32, receivers: Receivers) -> Finished {
+    candidates.sort_unstable_by(|a, b| a.near.total_cmp(&b.near).then(a.caster.cmp(&b.caster)));
+    let kept = candidates.partition_point(|c| c.near <= cover_depth);
+    let pruned = (candidates.len() - kept) as u32;
+    candidates.truncate(kept);
+    let mut finished = Finished { full_occlusion: cover_depth, pruned, dropped: Dropped::Nothing };
+    if receivers == Receivers::Anywhere || pruned > 0 {
+        return finished;
+    }
+    // Every receiver is on one of the candidates. Alone, a triangle shadows nothing in its own plane.
+    if candidates.len() == 1 {
+        candidates.clear();
+        finished.full_occlusion = f32::INFINITY;
+        finished.dropped = Dropped::List;
+    } else if cover_depth < f32::INFINITY && candidates.iter().all(|c| c.far <= cover_depth) {
+        finished.full_occlusion = f32::INFINITY;
+        finished.dropped = Dropped::FullOcclusion;
+    }
+    finished
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn candidate(near: f32, far: f32, caster: u32) -> Candidate {
+        Candidate { near, far, caster, cover: Cover::Part }
+    }
+
+    fn casters(candidates: &[Candidate]) -> Vec<u32> {
+        candidates.iter().map(|c| c.caster).collect()
+    }
+
+    #[test]
+    fn records_are_sorted_by_depth_then_by_caster() {
+        let mut list = vec![candidate(2.0, 3.0, 0), candidate(1.0, 9.0, 7), candidate(1.0, 2.0, 3)];
+        finish(&mut list, f32::INFINITY, Receivers::Surfaces);
+        assert_eq!(casters(&list), [3, 7, 0]);
+    }
+
+    #[test]
+    fn what_lies_behind_a_cover_is_cut_off_and_what_begins_on_it_stays() {
+        let mut list =
+            vec![candidate(1.0, 2.0, 0), candidate(2.0, 5.0, 1), candidate(2.0f32.next_up(), 5.0, 2)];
+        let finished = finish(&mut list, 2.0, Receivers::Surfaces);
+        assert_eq!(casters(&list), [0, 1]);
+        assert_eq!(finished, Finished { full_occlusion: 2.0, pruned: 1, dropped: Dropped::Nothing });
+    }
+
+    #[test]
+    fn a_cover_with_nothing_behind_it_is_dropped_for_surfaces_only() {
+        let list = vec![candidate(1.0, 2.0, 0), candidate(1.5, 2.0, 1)];
+        let finished = finish(&mut list.clone(), 2.0, Receivers::Surfaces);
+        assert_eq!((finished.full_occlusion, finished.dropped), (f32::INFINITY, Dropped::FullOcclusion));
+        assert_eq!(finish(&mut list.clone(), 2.0, Receivers::Anywhere).full_occlusion, 2.0);
+    }
+
+    #[test]
+    fn a_lone_polygon_is_dropped_unless_something_was_cut_off_behind_it() {
+        let mut alone = vec![candidate(1.0, 2.0, 0)];
+        assert_eq!(finish(&mut alone, 2.0, Receivers::Surfaces).dropped, Dropped::List);
+        assert!(alone.is_empty());
+        let mut shadowing = vec![candidate(1.0, 2.0, 0), candidate(3.0, 4.0, 1)];
+        finish(&mut shadowing, 2.0, Receivers::Surfaces);
+        assert_eq!(casters(&shadowing), [0]);
+        let mut anywhere = vec![candidate(1.0, 2.0, 0)];
+        finish(&mut anywhere, f32::INFINITY, Receivers::Anywhere);
+        assert_eq!(casters(&anywhere), [0]);
+    }
+}

@@ -1,0 +1,59 @@
+//! Does a point see a light? One trait, one registry, one room a tester.
+//!
+//! A *shadow query* is a surface point and a light; the answer is whether any triangle blocks the open
+//! segment between them. Surfaces that face away from the light are dark before any tester is asked
+//! ([`facing`]).
+
+pub mod brute_force;
+mod counters;
+#[cfg(feature = "embree")]
+pub mod embree;
+pub mod exact;
+pub mod facing;
+pub mod light_buffer;
+mod registry;
+mod scene_index;
+
+pub use counters::Counters;
+pub use registry::{Basis, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find};
+pub use scene_index::{Casters, SceneIndex};
+
+use crate::error::Result;
+use crate::visibility::SurfacePoint;
+
+/// Answers shadow queries of one light.
+///
+/// Points must not face away from the light (see [`facing`]); answers for those that do are unspecified.
+pub trait ShadowTester: Send + Sync {
+    /// Sets `answers[i]` to whether `points[i]` is occluded. Both slices have the same length.
+    ///
+    /// # Errors
+    /// If the tester cannot serve such points, or the library behind it fails.
+    fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters>;
+
+    /// Memory that the tester keeps, in bytes.
+    fn bytes(&self) -> usize;
+
+    /// What was built, a line each, for `--stats`.
+    fn statistics(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+}
+
+/// Where queries may come from; testers that know leave out what nobody can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Receivers {
+    /// Points on triangles of the scene that face the light.
+    Surfaces,
+    /// Any point of space.
+    Anywhere,
+}
+
+/// Cells along the edge of a cube face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Resolution {
+    /// Chosen from the number of triangles.
+    Auto,
+    /// This many, from 1 to 4096.
+    Cells(u32),
+}

@@ -1,0 +1,78 @@
+//! Every shadow tester there is. A tester that is not here is not cross-checked, and a test says so.
+
+use super::{Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use glam::Vec3;
+
+/// What a tester's answers rest on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// Exact arithmetic that shares no predicate or culling with anything it judges.
+    Truth,
+    /// A native tester that claims to be exact: one wrong answer is a failure.
+    Exact,
+    /// Answers whose error is measured and reported.
+    Measured,
+}
+
+/// All that building a tester for one light needs.
+#[derive(Clone, Copy)]
+pub struct BuildInput<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// What was made of the scene for all lights.
+    pub index: &'a SceneIndex,
+    /// Position of the light.
+    pub light: Vec3,
+    /// Cells along a cube face, for testers that have such.
+    pub resolution: Resolution,
+    /// Where the queries come from.
+    pub receivers: Receivers,
+    /// Embree's settings.
+    pub embree: EmbreeSettings,
+}
+
+/// How Embree is asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EmbreeSettings {
+    /// Rays run from `epsilon` to 1 - `epsilon` of the segment.
+    pub epsilon: f32,
+    /// Threads that Embree may build with.
+    pub threads: usize,
+}
+
+/// A tester by name.
+pub struct TesterEntry {
+    /// The name on the command line and in reports.
+    pub name: &'static str,
+    /// What its answers rest on.
+    pub basis: Basis,
+    /// Builds it for one light.
+    pub build: for<'a> fn(&BuildInput<'a>) -> Result<Box<dyn ShadowTester + 'a>>,
+    /// Expected number of triangle tests for a number of casters and queries.
+    pub expected_tests: fn(casters: f64, queries: f64) -> f64,
+}
+
+/// All testers; the first is the arbiter.
+pub const REGISTRY: &[TesterEntry] = &[
+    exact::ENTRY,
+    brute_force::ENTRY,
+    light_buffer::ENTRY,
+    #[cfg(feature = "embree")]
+    super::embree::ROBUST,
+    #[cfg(feature = "embree")]
+    super::embree::FAST,
+];
+
+/// The tester of a name.
+///
+/// # Errors
+/// [`Error::Usage`] that lists the names there are.
+pub fn find(name: &str) -> Result<&'static TesterEntry> {
+    REGISTRY.iter().find(|entry| entry.name == name).ok_or_else(|| {
+        let names: Vec<_> = REGISTRY.iter().map(|entry| entry.name).collect();
+        let missing = if cfg!(feature = "embree") { "" } else { " (built without the feature `embree`)" };
+        Error::Usage(format!("no shadow tester `{name}`{missing}; there are: {}", names.join(", ")))
+    })
+}

@@ -1,0 +1,30 @@
+//! Classical ray tracing: every ray against every triangle, as REALITY's reference tracer does (2004
+//! paper, section IV). It is what the t-buffer must equal, pixel by pixel.
+
+use super::hit::{FirstHits, Hit, keep_nearer};
+use crate::geometry::ray_triangle::RayTriangle;
+use crate::scene::{Camera, ImageSize, Scene};
+use rayon::prelude::*;
+
+/// First hits by testing everything.
+pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
+    let prepared: Vec<_> = (0..scene.triangles.len() as u32)
+        .filter_map(|primitive| Some((primitive, RayTriangle::new(camera.origin, scene.corners(primitive))?)))
+        .collect();
+    let raster = camera.raster(size);
+    let primitives = (0..size.pixels())
+        .into_par_iter()
+        .map(|pixel| {
+            let (x, y) = (pixel as u32 % size.width, pixel as u32 / size.width);
+            let direction = camera.direction(&raster, x, y);
+            let mut nearest: Option<Hit> = None;
+            for (primitive, triangle) in &prepared {
+                if let Some(t) = triangle.hit(direction) {
+                    keep_nearer(&mut nearest, (*primitive, t), scene, camera.origin, direction);
+                }
+            }
+            nearest.map(|(primitive, _)| primitive)
+        })
+        .collect();
+    FirstHits { size, primitives, tests: size.pixels() as u64 * prepared.len() as u64 }
+}

@@ -1,0 +1,9 @@
+//! What a camera sees: for every pixel the first primitive on its ray, and the exact point on it.
+
+pub mod classical;
+mod hit;
+mod surface_point;
+pub mod t_buffer;
+
+pub use hit::FirstHits;
+pub use surface_point::{PointSource, SurfacePoint, VisibleSurfaces};

@@ -1,0 +1,91 @@
+//! Points on surfaces that are asked whether they see a light.
+
+use super::FirstHits;
+use crate::geometry::ExactPosition;
+use crate::scene::{Camera, PrimitiveIndex, Scene};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// A point to be lit. Its exact position follows from `source`; `position` is that, correctly rounded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// The exact position with each coordinate rounded to the nearest f64: wrong by half an ulp at most.
+    pub position: DVec3,
+    /// What makes it exact.
+    pub source: PointSource,
+}
+
+/// Where a point comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PointSource {
+    /// The exact intersection of a ray and a triangle of the scene.
+    Ray {
+        /// Start of the ray.
+        origin: Vec3,
+        /// Its direction, not normalised.
+        direction: Vec3,
+        /// The triangle, visible from the origin in this direction.
+        primitive: PrimitiveIndex,
+    },
+    /// A point of a caller's own; its coordinates are f32 numbers and exact.
+    Bare,
+}
+
+impl SurfacePoint {
+    /// The point where a ray meets a triangle of the scene that is not parallel to it.
+    pub fn on_ray(scene: &Scene, origin: Vec3, direction: Vec3, primitive: PrimitiveIndex) -> SurfacePoint {
+        let exact = ExactPosition::OnRay { origin, direction, triangle: scene.corners(primitive) };
+        SurfacePoint { position: exact.rounded(), source: PointSource::Ray { origin, direction, primitive } }
+    }
+
+    /// A point on no surface.
+    pub fn bare(position: Vec3) -> SurfacePoint {
+        SurfacePoint { position: position.as_dvec3(), source: PointSource::Bare }
+    }
+
+    /// The exact position.
+    pub fn exact(&self, scene: &Scene) -> ExactPosition {
+        match self.source {
+            PointSource::Ray { origin, direction, primitive } => {
+                ExactPosition::OnRay { origin, direction, triangle: scene.corners(primitive) }
+            }
+            PointSource::Bare => ExactPosition::Bare(self.position.as_vec3()),
+        }
+    }
+
+    /// The triangle it lies on, if any: the base surface of the 1986 paper.
+    pub fn primitive(&self) -> Option<PrimitiveIndex> {
+        match self.source {
+            PointSource::Ray { primitive, .. } => Some(primitive),
+            PointSource::Bare => None,
+        }
+    }
+}
+
+/// The visible points of an image, pixel by pixel in rows from the top.
+#[derive(Debug, Clone)]
+pub struct VisibleSurfaces {
+    /// One entry for each pixel that sees a primitive.
+    pub points: Vec<SurfacePoint>,
+    /// The pixel of each point: row * width + column.
+    pub pixels: Vec<u32>,
+}
+
+impl VisibleSurfaces {
+    /// The points behind first hits of a camera.
+    pub fn new(scene: &Scene, camera: &Camera, hits: &FirstHits) -> VisibleSurfaces {
+        let raster = camera.raster(hits.size);
+        let (points, pixels) = hits
+            .primitives
+            .par_iter()
+            .enumerate()
+            .filter_map(|(pixel, primitive)| {
+                let pixel = pixel as u32;
+                let (x, y) = (pixel % hits.size.width, pixel / hits.size.width);
+                let direction = camera.direction(&raster, x, y);
+                primitive.map(|p| (SurfacePoint::on_ray(scene, camera.origin, direction, p), pixel))
+            })
+            .unzip();
+        VisibleSurfaces { points, pixels }
+    }
+}
