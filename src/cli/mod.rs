@@ -1,0 +1,62 @@
+//! The command line: one file a command.
+//!
+//! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
+//! right, 1 done and a native answer is wrong, 2 usage or input error.
+
+mod info;
+mod options;
+mod output;
+mod progress;
+mod render;
+mod validate;
+mod view;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Exact shadows from the light buffer, judged against Embree and exact arithmetic.
+#[derive(Debug, Parser)]
+#[command(name = "lightbuffer", version, max_term_width = 100, after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done and right; 1 done, but an answer of a native tester is wrong; \
+                          2 usage or input error, nothing written.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Render a scene to OpenEXR, shadows by any tester
+    Render(render::Args),
+    /// Hold every shadow tester against exact truth and against Embree, pixel by pixel
+    Validate(validate::Args),
+    /// Say what a scene holds and what it calls for
+    Info(info::Args),
+}
+
+/// How a command that ran to its end came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Right,
+    NativeWrong,
+}
+
+/// Parses the arguments, runs the command and returns the exit code.
+pub fn run() -> ExitCode {
+    // Usage errors exit with 2 here, help and version with 0.
+    let cli = Cli::parse();
+    let outcome = match cli.command {
+        Command::Render(args) => render::run(&args),
+        Command::Validate(args) => validate::run(&args),
+        Command::Info(args) => info::run(&args),
+    };
+    match outcome {
+        Ok(Outcome::Right) => ExitCode::SUCCESS,
+        Ok(Outcome::NativeWrong) => ExitCode::from(1),
+        Err(error) => {
+            eprintln!("lightbuffer: {error}");
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Options that commands share, and how their values are written.
+
+use crate::error::{Error, Result};
+use crate::scene::ImageSize;
+use crate::shadow::Resolution;
+use clap::Args;
+use glam::Vec3;
+use std::path::PathBuf;
+
+/// What is looked at, and from where.
+#[derive(Debug, Args)]
+pub struct ViewOptions {
+    /// Scene file: .obj, .gltf or .glb
+    pub scene: PathBuf,
+    /// Image size in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
+    pub size: ImageSize,
+    /// Camera by name [default: the scene's first]
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// A point light here instead of the scene's lights; may be repeated
+    #[arg(long = "light", value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true)]
+    pub lights: Vec<Vec3>,
+    /// A fixed ring of N point lights above the scene instead of the scene's lights
+    #[arg(long = "lights", value_name = "N", conflicts_with = "lights",
+          value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub rig: Option<u32>,
+    /// No floor under a mesh that comes without lights
+    #[arg(long)]
+    pub no_floor: bool,
+    /// Treat warnings about the scene as errors
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// What is done with it.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// Cells along an edge of the light buffer's cube: 1 to 4096, or auto
+    #[arg(long, value_name = "R", default_value = "auto", value_parser = parse_resolution)]
+    pub resolution: Resolution,
+    /// Share of a segment that Embree leaves out at both ends, in [0, 0.5)
+    #[arg(long, value_name = "E", default_value_t = 1e-4, value_parser = parse_epsilon)]
+    pub embree_epsilon: f32,
+    /// Threads [default: all]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Brighten PNG previews by this many stops
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub exposure: f32,
+    /// Print what was built and what every tester did
+    #[arg(long)]
+    pub stats: bool,
+    /// No progress and no messages but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl RunOptions {
+    /// The pool that everything parallel runs in.
+    ///
+    /// # Errors
+    /// If the system refuses the threads.
+    pub fn pool(&self) -> Result<rayon::ThreadPool> {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.map_or(0, usize::from))
+            .build()
+            .map_err(|e| Error::Usage(format!("--threads: {e}")))
+    }
+}
+
+/// The most pixels of an image: their indices are 32 bits, and 2^28 are 40 GB of planes already.
+const MOST_PIXELS: u64 = 1 << 28;
+
+fn parse_size(text: &str) -> std::result::Result<ImageSize, String> {
+    let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    let (width, height): (u32, u32) =
+        sides.ok_or("expected WIDTHxHEIGHT in pixels, such as 1920x1080")?;
+    if width == 0 || height == 0 {
+        return Err("both sides must be at least 1".into());
+    }
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(format!("more than {MOST_PIXELS} pixels"));
+    }
+    Ok(ImageSize { width, height })
+}
+
+fn parse_point(text: &str) -> std::result::Result<Vec3, String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|n: &f32| n.is_finite()) => Ok(Vec3::new(x, y, z)),
+        _ => Err("expected three finite numbers X,Y,Z".into()),
+    }
+}
+
+fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(Resolution::Auto),
+        Ok(cells @ 1..=crate::shadow::light_buffer::MOST_CELLS) => Ok(Resolution::Cells(cells)),
+        _ => Err("expected auto or a number from 1 to 4096".into()),
+    }
+}
+
+fn parse_epsilon(text: &str) -> std::result::Result<f32, String> {
+    match text.parse() {
+        Ok(epsilon) if (0.0..0.5).contains(&epsilon) => Ok(epsilon),
+        _ => Err("expected a number in [0, 0.5)".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_checked_before_memory_is_asked_for() {
+        assert_eq!(parse_size("1920x1080"), Ok(ImageSize { width: 1920, height: 1080 }));
+        for bad in ["", "10", "0x5", "5x0", "-1x5", "100000x100000", "1x2x3", "9999999999x1"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn points_need_three_finite_numbers() {
+        assert_eq!(parse_point("1,-2.5, 3"), Ok(Vec3::new(1.0, -2.5, 3.0)));
+        for bad in ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,1e99"] {
+            assert!(parse_point(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn resolutions_and_epsilons_stay_in_range() {
+        assert_eq!(parse_resolution("auto"), Ok(Resolution::Auto));
+        assert_eq!(parse_resolution("4096"), Ok(Resolution::Cells(4096)));
+        assert!(parse_resolution("0").is_err() && parse_resolution("4097").is_err());
+        assert!(parse_epsilon("0").is_ok() && parse_epsilon("0.5").is_err() && parse_epsilon("nan").is_err());
+    }
+}

@@ -1,0 +1,201 @@
+//! `lightbuffer validate`: every tester against the truth.
+
+use super::options::{RunOptions, ViewOptions};
+use super::output;
+use super::progress::{Bars, Messages};
+use super::view::{Seen, View};
+use super::Outcome;
+use crate::error::Result;
+use crate::film::{ImagePlanes, unique_safe_names, write_exr, write_false_colour};
+use crate::report::images::{LightMaps, picture_planes};
+use crate::report::table::verdict_table;
+use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
+use crate::shading::shade_picture;
+use crate::shadow::{
+    Basis, BuildInput, EmbreeSettings, REGISTRY, Receivers, SceneIndex, TesterEntry, find,
+};
+use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
+use std::path::PathBuf;
+
+/// Testers that would need more tests than this are skipped by name.
+const MOST_TESTS: f64 = 2e11;
+
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = CHANNELS)]
+pub struct Args {
+    #[command(flatten)]
+    view: ViewOptions,
+    /// Folder for validate.json, image.exr and the PNG maps; created if need be
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Testers to hold against the truth, separated by commas [default: all that fit]
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    testers: Vec<String>,
+    /// Tester of the picture, the difference map and the verdict map
+    #[arg(long, value_name = "TESTER", default_value = "light-buffer")]
+    shadow: String,
+    /// Check the arbiter on N queries a light against all triangles in exact integers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    check_arbiter: usize,
+    /// Copy of validate.json; - is standard output instead of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    run: RunOptions,
+}
+
+/// The channels of image.exr, for `--help`.
+pub const CHANNELS: &str = "\
+Channels of the OpenEXR file beside R G B A, Z, P.*, N.*, albedo.* and id.object, for each light:
+  shadow.LIGHT.TESTER      1 occluded, 0 lit, facing away or background
+  shadow.LIGHT.difference  the tester of --shadow against Embree: +1 only the tester says occluded
+                           (false shadow, were Embree right), -1 only Embree does (false light)
+  shadow.LIGHT.verdict     against the truth: 0 background, 1 faces away, 2 lit, 3 occluded,
+                           4 tester wrong, 5 Embree wrong, 6 both wrong; plus 10 where the segment
+                           touches";
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let messages = Messages::new(args.run.quiet);
+    let entries = choose(&args.testers, &args.shadow)?;
+    args.run.pool()?.install(|| validate(args, &entries, messages))
+}
+
+/// The testers of the registry that were asked for, the picture's tester and the truth among them.
+fn choose(names: &[String], shadow: &str) -> Result<Vec<&'static TesterEntry>> {
+    find(shadow)?;
+    for name in names {
+        find(name)?;
+    }
+    let wanted = |entry: &&TesterEntry| {
+        names.is_empty()
+            || entry.basis == Basis::Truth
+            || entry.name == shadow
+            || names.iter().any(|n| n == entry.name)
+    };
+    Ok(REGISTRY.iter().filter(wanted).collect())
+}
+
+fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
+    let view = View::load(&args.view, messages)?;
+    let seen = view.look(&args.view);
+    let index = SceneIndex::new(&view.scene);
+    let threads = rayon::current_num_threads();
+    let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
+    let mut report = Validation {
+        scene: view.scene.name.clone(),
+        width: args.view.size.width,
+        height: args.view.size.height,
+        version: env!("CARGO_PKG_VERSION"),
+        threads,
+        embree: embree_facts(threads, args.run.embree_epsilon)?,
+        skipped: Vec::new(),
+        lights: Vec::new(),
+        totals: Totals::default(),
+    };
+    let mut judged = Vec::new();
+    for light in &view.scene.lights {
+        let position = light.point.position;
+        let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
+        let input = BuildInput {
+            scene: &view.scene,
+            index: &index,
+            light: position,
+            resolution: args.run.resolution,
+            receivers: Receivers::Surfaces,
+            embree: EmbreeSettings { epsilon: args.run.embree_epsilon, threads },
+        };
+        let fitting = fitting(entries, &index, &queries, &mut report.skipped);
+        let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
+        let verdict = judge(&input, &queries, &fitting, &bars)?;
+        let facing_away = queries.facing_away.len() as u64;
+        let mut entry = LightReport::new(&light.name, queries.points.len() as u64, facing_away, &verdict);
+        if args.check_arbiter > 0 {
+            bars.stage("arbiter against integers");
+            let most = args.check_arbiter;
+            let advance = |n: u64| bars.advance(n);
+            entry.arbiter_check =
+                Some(check_arbiter(&view.scene, position, &queries, &verdict.truth, most, &advance));
+        }
+        bars.finish();
+        report.lights.push(entry);
+        judged.push((queries, verdict));
+    }
+    report.totals = Totals::of(&report.lights);
+    if report.totals.queries == 0 {
+        messages.warn("every visible point faces away from every light: there is nothing to judge");
+    }
+    write_all(args, &view, &seen, &names, &judged, &report)?;
+    if args.run.stats {
+        print_statistics(&view, &seen, &judged);
+    }
+    let arbiter_wrong = report.lights.iter().filter_map(|l| l.arbiter_check).any(|c| c.wrong > 0);
+    Ok(if report.totals.native_wrong() > 0 || arbiter_wrong { Outcome::NativeWrong } else { Outcome::Right })
+}
+
+fn fitting<'e>(
+    entries: &[&'e TesterEntry],
+    index: &SceneIndex,
+    queries: &Queries,
+    skipped: &mut Vec<String>,
+) -> Vec<&'e TesterEntry> {
+    let (casters, queries) = (index.casting.len() as f64, queries.points.len() as f64);
+    let fits = |entry: &&&TesterEntry| {
+        let fits = (entry.expected_tests)(casters, queries) <= MOST_TESTS;
+        if !fits && !skipped.iter().any(|name| name == entry.name) {
+            skipped.push(entry.name.into());
+        }
+        fits
+    };
+    entries.iter().filter(fits).copied().collect()
+}
+
+#[cfg(feature = "embree")]
+fn embree_facts(threads: usize, epsilon: f32) -> Result<Option<EmbreeFacts>> {
+    let device = crate::embree::Device::new(threads)?;
+    Ok(Some(EmbreeFacts { version: device.version(), isa: device.instruction_set(), epsilon }))
+}
+
+#[cfg(not(feature = "embree"))]
+fn embree_facts(_: usize, _: f32) -> Result<Option<EmbreeFacts>> {
+    Messages::Shown.warn("built without the feature `embree`: no oracle and no difference maps");
+    Ok(None)
+}
+
+fn write_all(
+    args: &Args,
+    view: &View,
+    seen: &Seen,
+    names: &[String],
+    judged: &[(Queries, LightVerdict)],
+    report: &Validation,
+) -> Result<()> {
+    output::folder(&args.output)?;
+    let file = |name: &str| args.output.join(name);
+    let mut planes = picture(view, seen, judged, &args.shadow, args)?;
+    for (name, (queries, verdict)) in names.iter().zip(judged) {
+        for tester in &verdict.testers {
+            let samples = spread(&planes, queries, &tester.occluded);
+            planes.add_channel(format!("shadow.{name}.{}", tester.name), samples)?;
+        }
+        let Some(maps) = LightMaps::new(args.view.size, name, queries, verdict, &args.shadow) else { continue };
+        maps.add_to(&mut planes)?;
+        if let Some(map) = maps.difference_map()? {
+            write_false_colour(&file(&format!("{name}.difference.png")), &map)?;
+        }
+        write_false_colour(&file(&format!("{name}.verdict.png")), &maps.verdict_map()?)?;
+    }
+    add_attributes(&mut planes, view, report, &args.shadow)?;
+    write_exr(&file("image.exr"), &planes)?;
+    output::write_preview(&file("image.png"), &planes, args.run.exposure)?;
+    output::write_json(&file("validate.json"), report)?;
+    match &args.json {
+        Some(path) => {
+            output::write_json(path, report)?;
+            if path != std::path::Path::new("-") {
+                output::print(&verdict_table(report))?;
+            }
+        }
+        None => output::print(&verdict_table(report))?,
+    }
+    Ok(())
+}

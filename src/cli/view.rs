@@ -1,0 +1,110 @@
+//! From options to a scene with lights, a camera and its visible points.
+
+use super::options::ViewOptions;
+use super::progress::Messages;
+use crate::error::{Error, Place, Result};
+use crate::scene::{Camera, Framing, Light, PointLight, Scene, formats, frame};
+use crate::shadow::facing::Sides;
+use crate::visibility::{FirstHits, VisibleSurfaces, t_buffer};
+use glam::Vec3;
+
+/// A scene ready to be looked at.
+pub struct View {
+    /// The scene, framed if it came without lights or camera.
+    pub scene: Scene,
+    /// The camera that was chosen.
+    pub camera: Camera,
+    /// What was added to the scene to make it visible.
+    pub added: Vec<String>,
+}
+
+impl View {
+    /// Loads the scene and applies the options; says what it had to add or leave out.
+    ///
+    /// # Errors
+    /// Whatever the loader finds, an unknown camera, or any warning under `--strict`.
+    pub fn load(options: &ViewOptions, messages: &Messages) -> Result<View> {
+        let mut scene = formats::load(&options.scene)?;
+        if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
+            return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
+        }
+        for warning in &scene.warnings {
+            messages.warn(warning);
+        }
+        if scene.triangles.is_empty() {
+            return Err(Error::input(&options.scene, Place::File, "the scene has no triangles to draw"));
+        }
+        let framing = if options.no_floor { Framing::WithoutFloor } else { Framing::WithFloor };
+        let added = frame(&mut scene, framing)?;
+        if !added.is_empty() {
+            messages.say(&format!("the scene came without: added {}", added.join(", ")));
+        }
+        replace_lights(&mut scene, options)?;
+        let camera = choose_camera(&scene, options.camera.as_deref())?;
+        Ok(View { scene, camera, added })
+    }
+
+    /// First hits by the t-buffer, the points behind them, and the camera's side of every triangle.
+    pub fn look(&self, options: &ViewOptions) -> Seen {
+        let hits = t_buffer::first_hits(&self.scene, &self.camera, options.size);
+        let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
+        let eye = Sides::of(&self.scene, self.camera.origin);
+        Seen { hits, visible, eye }
+    }
+}
+
+/// What the camera sees.
+pub struct Seen {
+    /// The primitive of every pixel.
+    pub hits: FirstHits,
+    /// The visible points.
+    pub visible: VisibleSurfaces,
+    /// Sides of all planes that the camera is on.
+    pub eye: Sides,
+}
+
+fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
+    let found = match name {
+        None => scene.cameras.first(),
+        Some(name) => scene.cameras.iter().find(|camera| camera.name == name),
+    };
+    found.cloned().ok_or_else(|| {
+        let names: Vec<_> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
+        Error::Usage(format!("no camera `{}`; the scene has: {}", name.unwrap_or(""), names.join(", ")))
+    })
+}
+
+/// Replaces the lights of the scene by those of `--light` or `--lights`, all of one strength: together as
+/// bright at the scene's centre as the key light of a framed mesh.
+fn replace_lights(scene: &mut Scene, options: &ViewOptions) -> Result<()> {
+    let (low, high) = scene.bounds().expect("a scene with triangles");
+    let centre = low * 0.5 + high * 0.5;
+    let positions = match options.rig {
+        Some(count) => ring(centre, (high - low).length() * 0.5, count),
+        None => options.lights.clone(),
+    };
+    if positions.is_empty() {
+        return Ok(());
+    }
+    let share = 3.0 / positions.len() as f32;
+    let light = |(i, &position): (usize, &Vec3)| {
+        let strength = (share * (position - centre).length_squared()).max(f32::MIN_POSITIVE);
+        let point = PointLight { position, intensity: [strength; 3], range: None };
+        Light { name: format!("light-{}", i + 1), point }
+    };
+    scene.lights = positions.iter().enumerate().map(light).collect();
+    match scene.lights.iter().find(|l| !l.point.position.is_finite() || !l.point.intensity[0].is_finite()) {
+        Some(light) => Err(Error::Usage(format!("{}: too far from the scene for 32-bit floats", light.name))),
+        None => Ok(()),
+    }
+}
+
+/// Lights in a circle above the scene, the first one to the left in front.
+fn ring(centre: Vec3, radius: f32, count: u32) -> Vec<Vec3> {
+    let position = |i: u32| {
+        let angle = std::f64::consts::TAU * (f64::from(i) / f64::from(count) + 0.35);
+        let (sin, cos) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
+        centre + radius * Vec3::new(2.2 * cos, 2.6, 2.2 * sin)
+    };
+    (0..count).map(position).collect()
+}

@@ -1,0 +1,5 @@
+//! Running testers over many queries and timing what they do.
+
+mod run;
+
+pub use run::{Answers, Timed, answer, timed};

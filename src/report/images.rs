@@ -1,0 +1,161 @@
+//! Image planes of a run, and previews of its maps.
+
+use crate::error::Result;
+use crate::film::{Category, CategoryMap, ImagePlanes, palette};
+use crate::scene::{ImageSize, Scene};
+use crate::shading::ShadedPoint;
+use crate::verdict::{LightVerdict, PixelVerdict, Queries};
+use crate::visibility::VisibleSurfaces;
+
+/// R G B A, Z, P, N, albedo and identifiers of a picture. The background is 0 with alpha 0 and Z infinite.
+///
+/// # Errors
+/// Never for points of an image of this size.
+pub fn picture_planes(
+    size: ImageSize,
+    scene: &Scene,
+    visible: &VisibleSurfaces,
+    shaded: &[ShadedPoint],
+) -> Result<ImagePlanes> {
+    let mut planes = ImagePlanes::new(size);
+    let spread = |background: f32, value: &dyn Fn(usize) -> f32| {
+        let mut samples = vec![background; size.pixels()];
+        for (i, &pixel) in visible.pixels.iter().enumerate() {
+            samples[pixel as usize] = value(i);
+        }
+        samples
+    };
+    for (k, name) in ["R", "G", "B"].into_iter().enumerate() {
+        planes.add_channel(name, spread(0.0, &|i| shaded[i].radiance[k]))?;
+    }
+    planes.add_channel("A", spread(0.0, &|_| 1.0))?;
+    planes.add_channel("Z", spread(f32::INFINITY, &|i| shaded[i].depth as f32))?;
+    for (k, axis) in ["X", "Y", "Z"].into_iter().enumerate() {
+        planes.add_channel(format!("P.{axis}"), spread(0.0, &|i| visible.points[i].position[k] as f32))?;
+        planes.add_channel(format!("N.{axis}"), spread(0.0, &|i| shaded[i].normal[k] as f32))?;
+    }
+    for (k, name) in ["R", "G", "B"].into_iter().enumerate() {
+        planes.add_channel(format!("albedo.{name}"), spread(0.0, &|i| shaded[i].albedo[k]))?;
+    }
+    let object = |i: usize| {
+        visible.points[i].primitive().map_or(0.0, |p| scene.object_and_surface(p).0 as f32)
+    };
+    planes.add_channel("id.object", spread(0.0, &object))?;
+    Ok(planes)
+}
+
+/// Classes of the difference map: what a tester and Embree say of each pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Difference {
+    Background,
+    FacingAway,
+    BothLit,
+    BothOccluded,
+    OnlyTesterOccluded,
+    OnlyEmbreeOccluded,
+}
+
+/// The maps of one light: where a tester and Embree differ, and who is right.
+pub struct LightMaps {
+    size: ImageSize,
+    light: String,
+    tester: &'static str,
+    difference: Option<Vec<Difference>>,
+    verdict: Vec<(PixelVerdict, bool)>,
+}
+
+impl LightMaps {
+    /// The maps of the tester of a name, which the verdict must hold.
+    pub fn new(
+        size: ImageSize,
+        light: &str,
+        queries: &Queries,
+        verdict: &LightVerdict,
+        tester: &str,
+    ) -> Option<LightMaps> {
+        let native = verdict.tester(tester)?;
+        let embree = verdict.tester("embree");
+        let mut pixels = vec![(PixelVerdict::Background, false); size.pixels()];
+        let mut difference = vec![Difference::Background; size.pixels()];
+        for &pixel in &queries.facing_away {
+            pixels[pixel as usize].0 = PixelVerdict::FacingAway;
+            difference[pixel as usize] = Difference::FacingAway;
+        }
+        for (i, &pixel) in queries.pixels.iter().enumerate() {
+            let other = embree.map(|e| e.occluded[i]);
+            let judged = PixelVerdict::new(native.occluded[i], other, verdict.truth[i]);
+            pixels[pixel as usize] = (judged, verdict.touching[i]);
+            difference[pixel as usize] = match (native.occluded[i], other.unwrap_or(native.occluded[i])) {
+                (false, false) => Difference::BothLit,
+                (true, true) => Difference::BothOccluded,
+                (true, false) => Difference::OnlyTesterOccluded,
+                (false, true) => Difference::OnlyEmbreeOccluded,
+            };
+        }
+        let difference = embree.is_some().then_some(difference);
+        Some(LightMaps { size, light: light.into(), tester: native.name, difference, verdict: pixels })
+    }
+
+    /// Adds `shadow.<light>.difference` and `shadow.<light>.verdict`; the former only if Embree was asked.
+    ///
+    /// # Errors
+    /// If the planes have such channels already.
+    pub fn add_to(&self, planes: &mut ImagePlanes) -> Result<()> {
+        if let Some(difference) = &self.difference {
+            let value = |d: &Difference| match d {
+                Difference::OnlyTesterOccluded => 1.0,
+                Difference::OnlyEmbreeOccluded => -1.0,
+                _ => 0.0,
+            };
+            let samples = difference.iter().map(value).collect();
+            planes.add_channel(format!("shadow.{}.difference", self.light), samples)?;
+        }
+        let code = |&(verdict, touching): &(PixelVerdict, bool)| f32::from(verdict.code() + 10 * u8::from(touching));
+        planes.add_channel(format!("shadow.{}.verdict", self.light), self.verdict.iter().map(code).collect())
+    }
+
+    /// Where the tester and Embree differ, in false colour; `None` if Embree was not asked.
+    ///
+    /// # Errors
+    /// Never for maps of this size.
+    pub fn difference_map(&self) -> Result<Option<CategoryMap>> {
+        let Some(difference) = &self.difference else { return Ok(None) };
+        let tester = self.tester;
+        let legend = vec![
+            Category::plain("background", palette::BACKGROUND),
+            Category::plain("faces away", palette::FACING_AWAY),
+            Category::plain("both lit", palette::LIT),
+            Category::plain("both occluded", palette::SHADOWED),
+            Category::marked_when_rare(format!("only {tester} occluded"), palette::VERMILLION),
+            Category::marked_when_rare("only embree occluded", palette::SKY_BLUE),
+        ];
+        let classes = difference.iter().map(|&d| d as u8).collect();
+        let title = format!("light {}: {tester} against embree", self.light);
+        CategoryMap::new(title, self.size, classes, legend).map(Some)
+    }
+
+    /// Who is right, in false colour.
+    ///
+    /// # Errors
+    /// Never for maps of this size.
+    pub fn verdict_map(&self) -> Result<CategoryMap> {
+        let tester = self.tester;
+        let legend = vec![
+            Category::plain("background", palette::BACKGROUND),
+            Category::plain("faces away", palette::FACING_AWAY),
+            Category::plain("lit", palette::LIT),
+            Category::plain("occluded", palette::SHADOWED),
+            Category::marked_when_rare(format!("{tester} wrong"), palette::VERMILLION),
+            Category::marked_when_rare("embree wrong", palette::SKY_BLUE),
+            Category::marked_when_rare("both wrong", palette::REDDISH_PURPLE),
+            Category::marked_when_rare("touching, all right", palette::YELLOW),
+        ];
+        let touching_class = 7;
+        let class = |&(verdict, touching): &(PixelVerdict, bool)| match verdict {
+            PixelVerdict::Lit | PixelVerdict::Occluded if touching => touching_class,
+            _ => verdict.code(),
+        };
+        let classes = self.verdict.iter().map(class).collect();
+        CategoryMap::new(format!("light {}: verdicts", self.light), self.size, classes, legend)
+    }
+}

@@ -1,0 +1,5 @@
+//! What a run says: JSON documents, tables for people, image planes and previews.
+
+pub mod images;
+pub mod table;
+pub mod validation;

@@ -1,0 +1,106 @@
+//! Verdict tables for people.
+
+use super::validation::{TesterReport, Totals, Validation};
+use crate::shadow::REGISTRY;
+use std::fmt::Write;
+
+/// The verdict table: speed beside error, a block a light and the sums if there are several lights.
+pub fn verdict_table(report: &Validation) -> String {
+    let mut text = String::new();
+    for light in &report.lights {
+        let _ = writeln!(
+            text,
+            "light {}: {} queries, {} points face away, {} touching",
+            light.name,
+            grouped(light.queries),
+            grouped(light.facing_away),
+            grouped(light.verdicts.touching)
+        );
+        rows(&mut text, &|name| light.testers.get(name));
+        if let Some(check) = light.arbiter_check {
+            let _ = writeln!(
+                text,
+                "  arbiter against all triangles in integers: {} wrong of {}",
+                check.wrong,
+                grouped(check.queries)
+            );
+        }
+    }
+    if report.lights.len() > 1 {
+        let _ = writeln!(text, "all lights: {} queries", grouped(report.totals.queries));
+        rows(&mut text, &|name| report.totals.testers.get(name));
+    }
+    text.push_str(&summary(&report.totals));
+    for skipped in &report.skipped {
+        let _ = writeln!(text, "skipped: {skipped} would need more than 2e11 tests");
+    }
+    text
+}
+
+fn rows<'a>(text: &mut String, report: &dyn Fn(&str) -> Option<&'a TesterReport>) {
+    let _ = writeln!(
+        text,
+        "  {:<14} {:>9} {:>9} {:>10} {:>11} {:>9} {:>7} {:>9}",
+        "tester", "build ms", "ns/query", "memory", "false shadow", "false light", "wrong", "undecided"
+    );
+    for entry in REGISTRY {
+        let Some(t) = report(entry.name) else { continue };
+        let _ = writeln!(
+            text,
+            "  {:<14} {:>9.1} {:>9.1} {:>10} {:>12} {:>11} {:>7} {:>9}",
+            entry.name,
+            t.build_seconds * 1e3,
+            t.ns_per_query,
+            bytes(t.bytes),
+            grouped(t.counts.false_shadow),
+            grouped(t.counts.false_light),
+            grouped(t.counts.wrong),
+            grouped(t.counts.undecided),
+        );
+    }
+}
+
+fn summary(totals: &Totals) -> String {
+    let native = format!("{} of {} native answers wrong", grouped(totals.native_wrong()), grouped(totals.queries));
+    match totals.testers.get("embree") {
+        Some(embree) => format!(
+            "{native}, {} of Embree's ({} false shadow, {} false light)\n",
+            grouped(embree.counts.wrong),
+            grouped(embree.counts.false_shadow),
+            grouped(embree.counts.false_light)
+        ),
+        None => format!("{native}; Embree was not asked\n"),
+    }
+}
+
+/// A count with thin groups of three digits.
+pub fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// Bytes in a unit that reads well.
+pub fn bytes(value: usize) -> String {
+    match value {
+        0..10_240 => format!("{value} B"),
+        10_240..10_485_760 => format!("{} KiB", value / 1024),
+        _ => format!("{} MiB", value / 1_048_576),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_grouped_by_three() {
+        assert_eq!(["0", "999", "1,000", "12,345,678"], [0, 999, 1000, 12_345_678].map(grouped).each_ref().map(|s| s.as_str()));
+    }
+}

@@ -1,0 +1,138 @@
+//! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
+
+use crate::shadow::Basis;
+use crate::verdict::{ArbiterCheck, LightVerdict, TesterCounts, TesterResult, VerdictCounts};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The whole document.
+#[derive(Debug, Clone, Serialize)]
+pub struct Validation {
+    /// The scene's name.
+    pub scene: String,
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+    /// Version of this program.
+    pub version: &'static str,
+    /// Threads that the times were taken with.
+    pub threads: usize,
+    /// Embree's version and instruction set; absent without it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub embree: Option<EmbreeFacts>,
+    /// Testers that would have taken too long, by name.
+    pub skipped: Vec<String>,
+    /// One entry a light.
+    pub lights: Vec<LightReport>,
+    /// Sums over the lights.
+    pub totals: Totals,
+}
+
+/// What Embree says of itself.
+#[derive(Debug, Clone, Serialize)]
+pub struct EmbreeFacts {
+    /// Such as `3.13.5`.
+    pub version: String,
+    /// The instruction set that its traversal uses.
+    pub isa: String,
+    /// Share of the segment left out at both ends.
+    pub epsilon: f32,
+}
+
+/// One light's verdicts.
+#[derive(Debug, Clone, Serialize)]
+pub struct LightReport {
+    /// The light's name.
+    pub name: String,
+    /// Shadow queries: visible points that face the light.
+    pub queries: u64,
+    /// Visible points that face away from it.
+    pub facing_away: u64,
+    /// Testers by name.
+    pub testers: BTreeMap<&'static str, TesterReport>,
+    /// Who is right where.
+    pub verdicts: VerdictCounts,
+    /// The arbiter against the plain definition, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arbiter_check: Option<ArbiterCheck>,
+}
+
+/// One tester at one light.
+#[derive(Debug, Clone, Serialize)]
+pub struct TesterReport {
+    /// Right and wrong.
+    #[serde(flatten)]
+    pub counts: TesterCounts,
+    /// Seconds to build it.
+    pub build_seconds: f64,
+    /// Wall-clock nanoseconds a query on all threads.
+    pub ns_per_query: f64,
+    /// Memory it keeps.
+    pub bytes: usize,
+}
+
+/// Sums over the lights.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Totals {
+    /// Queries of all lights.
+    pub queries: u64,
+    /// Testers by name: counts and build times add up, times a query are averages weighted by queries,
+    /// memory is that of all lights together.
+    pub testers: BTreeMap<&'static str, TesterReport>,
+    /// Who is right where.
+    pub verdicts: VerdictCounts,
+}
+
+impl LightReport {
+    /// The report on one light.
+    pub fn new(name: &str, queries: u64, facing_away: u64, verdict: &LightVerdict) -> LightReport {
+        let report = |t: &TesterResult| TesterReport {
+            counts: t.counts,
+            build_seconds: t.build_seconds,
+            ns_per_query: t.ns_per_query,
+            bytes: t.bytes,
+        };
+        LightReport {
+            name: name.into(),
+            queries,
+            facing_away,
+            testers: verdict.testers.iter().map(|t| (t.name, report(t))).collect(),
+            verdicts: verdict.counts,
+            arbiter_check: None,
+        }
+    }
+}
+
+impl Totals {
+    /// Adds up all lights.
+    pub fn of(lights: &[LightReport]) -> Totals {
+        let mut totals = Totals::default();
+        for light in lights {
+            for (&name, tester) in &light.testers {
+                let sum = totals.testers.entry(name).or_insert(TesterReport {
+                    counts: TesterCounts::default(),
+                    build_seconds: 0.0,
+                    ns_per_query: 0.0,
+                    bytes: 0,
+                });
+                let (before, now) = (totals.queries as f64, light.queries as f64);
+                if before + now > 0.0 {
+                    sum.ns_per_query = (sum.ns_per_query * before + tester.ns_per_query * now) / (before + now);
+                }
+                sum.counts += tester.counts;
+                sum.build_seconds += tester.build_seconds;
+                sum.bytes += tester.bytes;
+            }
+            totals.queries += light.queries;
+            totals.verdicts += light.verdicts;
+        }
+        totals
+    }
+
+    /// Wrong answers of the testers that claim to be exact.
+    pub fn native_wrong(&self) -> u64 {
+        let exact = |name: &str| crate::shadow::find(name).is_ok_and(|entry| entry.basis == Basis::Exact);
+        self.testers.iter().filter(|(name, _)| exact(name)).map(|(_, t)| t.counts.wrong).sum()
+    }
+}

@@ -1,0 +1,143 @@
+//! Every tester over the queries of one light, against the arbiter.
+
+use super::{Queries, TesterCounts, VerdictCounts};
+use crate::error::Result;
+use crate::measure::{answer, timed};
+use crate::shadow::exact::{Arbiter, Contact, Occlusion};
+use crate::shadow::{Basis, BuildInput, Counters, TesterEntry};
+use rayon::prelude::*;
+
+/// One tester's part in a light's verdict.
+#[derive(Debug, Clone)]
+pub struct TesterResult {
+    /// Its name in the registry.
+    pub name: &'static str,
+    /// What its answers rest on.
+    pub basis: Basis,
+    /// Its answers, one a query.
+    pub occluded: Vec<bool>,
+    /// Right and wrong.
+    pub counts: TesterCounts,
+    /// The work it took.
+    pub counters: Counters,
+    /// Seconds to build it.
+    pub build_seconds: f64,
+    /// Wall-clock nanoseconds a query on all threads.
+    pub ns_per_query: f64,
+    /// Memory it keeps.
+    pub bytes: usize,
+    /// What was built, for `--stats`.
+    pub statistics: Vec<(&'static str, String)>,
+}
+
+/// The verdict on one light.
+#[derive(Debug, Clone)]
+pub struct LightVerdict {
+    /// Whether each query is occluded, exactly.
+    pub truth: Vec<bool>,
+    /// Whether each query is touching.
+    pub touching: Vec<bool>,
+    /// Testers in the order of the registry.
+    pub testers: Vec<TesterResult>,
+    /// Who is right where.
+    pub counts: VerdictCounts,
+}
+
+impl LightVerdict {
+    /// A tester's result by name.
+    pub fn tester(&self, name: &str) -> Option<&TesterResult> {
+        self.testers.iter().find(|t| t.name == name)
+    }
+}
+
+/// Decides all queries of a light and holds the testers against that. `progress` is told of each stage and
+/// of every chunk of answers.
+///
+/// # Errors
+/// Whatever a tester reports while it is built or asked.
+pub fn judge(
+    input: &BuildInput,
+    queries: &Queries,
+    entries: &[&TesterEntry],
+    progress: &dyn Progress,
+) -> Result<LightVerdict> {
+    let points = &queries.points;
+    let mut testers = Vec::new();
+    progress.stage("exact");
+    let arbiter = timed(|| Arbiter::new(input));
+    let decided = timed(|| {
+        points
+            .par_iter()
+            .map(|point| {
+                let truth = arbiter.value.decide(point);
+                progress.advance(1);
+                truth
+            })
+            .collect::<Vec<_>>()
+    });
+    let truth: Vec<bool> = decided.value.iter().map(|t| t.occlusion == Occlusion::Occluded).collect();
+    let touching: Vec<bool> = decided.value.iter().map(|t| t.contact == Contact::Touching).collect();
+    for entry in entries {
+        if entry.basis == Basis::Truth {
+            testers.push(TesterResult {
+                name: entry.name,
+                basis: entry.basis,
+                occluded: truth.clone(),
+                counts: TesterCounts::new(&truth, &truth, 0),
+                counters: Counters::default(),
+                build_seconds: arbiter.seconds,
+                ns_per_query: per_query(decided.seconds, points.len()),
+                bytes: crate::shadow::ShadowTester::bytes(&arbiter.value),
+                statistics: Vec::new(),
+            });
+            continue;
+        }
+        progress.stage(entry.name);
+        let built = timed(|| (entry.build)(input));
+        let tester = built.value?;
+        let answers = answer(tester.as_ref(), points, &|n| progress.advance(n))?;
+        testers.push(TesterResult {
+            name: entry.name,
+            basis: entry.basis,
+            counts: TesterCounts::new(&answers.occluded, &truth, answers.counters.undecided),
+            occluded: answers.occluded,
+            counters: answers.counters,
+            build_seconds: built.seconds,
+            ns_per_query: per_query(answers.seconds, points.len()),
+            bytes: tester.bytes(),
+            statistics: tester.statistics(),
+        });
+    }
+    let counts = verdicts(&truth, &touching, &testers);
+    Ok(LightVerdict { truth, touching, testers, counts })
+}
+
+/// What a long run tells about itself.
+pub trait Progress: Sync {
+    /// A tester begins.
+    fn stage(&self, name: &str);
+    /// So many more queries are answered.
+    fn advance(&self, queries: u64);
+}
+
+fn per_query(seconds: f64, queries: usize) -> f64 {
+    if queries == 0 { 0.0 } else { seconds * 1e9 / queries as f64 }
+}
+
+fn verdicts(truth: &[bool], touching: &[bool], testers: &[TesterResult]) -> VerdictCounts {
+    let native: Vec<_> = testers.iter().filter(|t| t.basis == Basis::Exact).collect();
+    let embree = testers.iter().find(|t| t.name == "embree");
+    let mut counts = VerdictCounts::default();
+    for (i, &truth) in truth.iter().enumerate() {
+        let native_wrong = native.iter().any(|t| t.occluded[i] != truth);
+        let embree_wrong = embree.is_some_and(|t| t.occluded[i] != truth);
+        match (native_wrong, embree_wrong) {
+            (false, false) => counts.agree += 1,
+            (true, false) => counts.native_wrong += 1,
+            (false, true) => counts.embree_wrong += 1,
+            (true, true) => counts.both_wrong += 1,
+        }
+        counts.touching += u64::from(touching[i]);
+    }
+    counts
+}

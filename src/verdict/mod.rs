@@ -1,0 +1,11 @@
+//! Masks against truth: counts, and a verdict for every query.
+
+mod check;
+mod counts;
+mod judge;
+mod maps;
+
+pub use check::{ArbiterCheck, check_arbiter};
+pub use counts::{TesterCounts, VerdictCounts};
+pub use judge::{LightVerdict, Progress, TesterResult, judge};
+pub use maps::{PixelVerdict, Queries};
