@@ -6,6 +6,7 @@
 mod info;
 mod options;
 mod output;
+mod picture;
 mod progress;
 mod render;
 mod validate;

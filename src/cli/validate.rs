@@ -1,21 +1,19 @@
 //! `lightbuffer validate`: every tester against the truth.
 
 use super::options::{RunOptions, ViewOptions};
-use super::output;
+use super::{output, picture};
 use super::progress::{Bars, Messages};
 use super::view::{Seen, View};
 use super::Outcome;
 use crate::error::Result;
-use crate::film::{ImagePlanes, unique_safe_names, write_exr, write_false_colour};
-use crate::report::images::{LightMaps, picture_planes};
-use crate::report::table::verdict_table;
+use crate::film::{unique_safe_names, write_exr, write_false_colour};
+use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
-use crate::shading::shade_picture;
 use crate::shadow::{
     Basis, BuildInput, EmbreeSettings, REGISTRY, Receivers, SceneIndex, TesterEntry, find,
 };
 use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Testers that would need more tests than this are skipped by name.
 const MOST_TESTS: f64 = 2e11;
@@ -126,7 +124,10 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     }
     write_all(args, &view, &seen, &names, &judged, &report)?;
     if args.run.stats {
-        print_statistics(&view, &seen, &judged);
+        let runs = view.scene.lights.iter().zip(&judged).flat_map(|(light, (_, verdict))| {
+            verdict.testers.iter().map(|tester| (light.name.as_str(), &tester.run))
+        });
+        eprint!("{}", statistics(&seen.hits, runs));
     }
     let arbiter_wrong = report.lights.iter().filter_map(|l| l.arbiter_check).any(|c| c.wrong > 0);
     Ok(if report.totals.native_wrong() > 0 || arbiter_wrong { Outcome::NativeWrong } else { Outcome::Right })
@@ -150,13 +151,13 @@ fn fitting<'e>(
 }
 
 #[cfg(feature = "embree")]
-fn embree_facts(threads: usize, epsilon: f32) -> Result<Option<EmbreeFacts>> {
+pub fn embree_facts(threads: usize, epsilon: f32) -> Result<Option<EmbreeFacts>> {
     let device = crate::embree::Device::new(threads)?;
     Ok(Some(EmbreeFacts { version: device.version(), isa: device.instruction_set(), epsilon }))
 }
 
 #[cfg(not(feature = "embree"))]
-fn embree_facts(_: usize, _: f32) -> Result<Option<EmbreeFacts>> {
+pub fn embree_facts(_: usize, _: f32) -> Result<Option<EmbreeFacts>> {
     Messages::Shown.warn("built without the feature `embree`: no oracle and no difference maps");
     Ok(None)
 }
@@ -171,31 +172,22 @@ fn write_all(
 ) -> Result<()> {
     output::folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
-    let mut planes = picture(view, seen, judged, &args.shadow, args)?;
+    let mut planes = picture::shaded(view, seen, &picture::runs_of(judged, &args.shadow)?)?;
     for (name, (queries, verdict)) in names.iter().zip(judged) {
-        for tester in &verdict.testers {
-            let samples = spread(&planes, queries, &tester.occluded);
-            planes.add_channel(format!("shadow.{name}.{}", tester.name), samples)?;
+        for map in picture::add_light(&mut planes, name, queries, verdict, &args.shadow)? {
+            write_false_colour(&file(&format!("{name}.{}.png", map.kind)), &map.colours)?;
         }
-        let Some(maps) = LightMaps::new(args.view.size, name, queries, verdict, &args.shadow) else { continue };
-        maps.add_to(&mut planes)?;
-        if let Some(map) = maps.difference_map()? {
-            write_false_colour(&file(&format!("{name}.difference.png")), &map)?;
-        }
-        write_false_colour(&file(&format!("{name}.verdict.png")), &maps.verdict_map()?)?;
     }
-    add_attributes(&mut planes, view, report, &args.shadow)?;
+    let testers: Vec<_> = judged.iter().take(1).flat_map(|(_, v)| &v.testers).map(|t| t.run.name).collect();
+    picture::add_attributes(&mut planes, view, &testers, &args.shadow, report.embree.as_ref())?;
     write_exr(&file("image.exr"), &planes)?;
     output::write_preview(&file("image.png"), &planes, args.run.exposure)?;
     output::write_json(&file("validate.json"), report)?;
-    match &args.json {
-        Some(path) => {
-            output::write_json(path, report)?;
-            if path != std::path::Path::new("-") {
-                output::print(&verdict_table(report))?;
-            }
-        }
-        None => output::print(&verdict_table(report))?,
+    if let Some(path) = &args.json {
+        output::write_json(path, report)?;
     }
-    Ok(())
+    if args.json.as_deref() == Some(Path::new("-")) {
+        return Ok(());
+    }
+    output::print(&verdict_table(report))
 }

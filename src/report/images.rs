@@ -73,8 +73,8 @@ impl LightMaps {
         verdict: &LightVerdict,
         tester: &str,
     ) -> Option<LightMaps> {
-        let native = verdict.tester(tester)?;
-        let embree = verdict.tester("embree");
+        let native = &verdict.tester(tester)?.run;
+        let embree = verdict.tester("embree").map(|t| &t.run);
         let mut pixels = vec![(PixelVerdict::Background, false); size.pixels()];
         let mut difference = vec![Difference::Background; size.pixels()];
         for &pixel in &queries.facing_away {

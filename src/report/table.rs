@@ -2,6 +2,8 @@
 
 use super::validation::{TesterReport, Totals, Validation};
 use crate::shadow::REGISTRY;
+use crate::verdict::TesterRun;
+use crate::visibility::FirstHits;
 use std::fmt::Write;
 
 /// The verdict table: speed beside error, a block a light and the sums if there are several lights.
@@ -71,6 +73,32 @@ fn summary(totals: &Totals) -> String {
         ),
         None => format!("{native}; Embree was not asked\n"),
     }
+}
+
+/// What was built and what every tester did, for `--stats`: runs with the name of their light.
+pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a TesterRun)>) -> String {
+    let mut text = String::new();
+    let rays = hits.size.pixels() as u64;
+    let _ = writeln!(text, "t-buffer: {} rays, {} ray-triangle tests", grouped(rays), grouped(hits.tests));
+    for (light, run) in runs {
+        let a_query = |count: u64| count as f64 / run.occluded.len().max(1) as f64;
+        let c = &run.counters;
+        let _ = writeln!(
+            text,
+            "{light} {}: {:.2} tests, {:.2} lists entered, {:.4} full occlusions, {:.5} undecided, \
+             {:.6} exact a query",
+            run.name,
+            a_query(c.tests),
+            a_query(c.lists),
+            a_query(c.full_occlusions),
+            a_query(c.undecided),
+            a_query(c.exact),
+        );
+        for (name, value) in &run.statistics {
+            let _ = writeln!(text, "  {name}: {value}");
+        }
+    }
+    text
 }
 
 /// A count with thin groups of three digits.

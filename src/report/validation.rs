@@ -89,15 +89,15 @@ impl LightReport {
     pub fn new(name: &str, queries: u64, facing_away: u64, verdict: &LightVerdict) -> LightReport {
         let report = |t: &TesterResult| TesterReport {
             counts: t.counts,
-            build_seconds: t.build_seconds,
-            ns_per_query: t.ns_per_query,
-            bytes: t.bytes,
+            build_seconds: t.run.build_seconds,
+            ns_per_query: t.run.ns_per_query,
+            bytes: t.run.bytes,
         };
         LightReport {
             name: name.into(),
             queries,
             facing_away,
-            testers: verdict.testers.iter().map(|t| (t.name, report(t))).collect(),
+            testers: verdict.testers.iter().map(|t| (t.run.name, report(t))).collect(),
             verdicts: verdict.counts,
             arbiter_check: None,
         }

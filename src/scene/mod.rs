@@ -102,6 +102,19 @@ impl Scene {
         &self.materials[self.objects[object as usize].material as usize]
     }
 
+    /// A hash of everything that shadows depend on: corners of all triangles, object by object, and
+    /// positions of lights. FNV-1a in 64 bits, the same on every platform.
+    pub fn hash(&self) -> u64 {
+        let corners = self.triangles.iter().flat_map(|t| {
+            let corners = t.vertices.map(|v| self.vertices[v as usize].to_array());
+            corners.into_iter().flatten().map(f32::to_bits).chain([t.object])
+        });
+        let lights = self.lights.iter().flat_map(|l| l.point.position.to_array().map(f32::to_bits));
+        corners.chain(lights).flat_map(u32::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+        })
+    }
+
     /// The smallest axis-aligned box around all triangles, or `None` for an empty scene.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         let mut corners = (0..self.triangles.len() as u32).flat_map(|t| self.corners(t));

@@ -4,20 +4,18 @@ use super::{Queries, TesterCounts, VerdictCounts};
 use crate::error::Result;
 use crate::measure::{answer, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
-use crate::shadow::{Basis, BuildInput, Counters, TesterEntry};
+use crate::shadow::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
 use rayon::prelude::*;
 
-/// One tester's part in a light's verdict.
+/// One tester's answers to the queries of a light, and what they cost.
 #[derive(Debug, Clone)]
-pub struct TesterResult {
+pub struct TesterRun {
     /// Its name in the registry.
     pub name: &'static str,
     /// What its answers rest on.
     pub basis: Basis,
-    /// Its answers, one a query.
+    /// Whether each query is occluded.
     pub occluded: Vec<bool>,
-    /// Right and wrong.
-    pub counts: TesterCounts,
     /// The work it took.
     pub counters: Counters,
     /// Seconds to build it.
@@ -28,6 +26,15 @@ pub struct TesterResult {
     pub bytes: usize,
     /// What was built, for `--stats`.
     pub statistics: Vec<(&'static str, String)>,
+}
+
+/// A run and how it compares with the truth.
+#[derive(Debug, Clone)]
+pub struct TesterResult {
+    /// Answers and costs.
+    pub run: TesterRun,
+    /// Right and wrong.
+    pub counts: TesterCounts,
 }
 
 /// The verdict on one light.
@@ -46,7 +53,7 @@ pub struct LightVerdict {
 impl LightVerdict {
     /// A tester's result by name.
     pub fn tester(&self, name: &str) -> Option<&TesterResult> {
-        self.testers.iter().find(|t| t.name == name)
+        self.testers.iter().find(|t| t.run.name == name)
     }
 }
 
@@ -78,38 +85,50 @@ pub fn judge(
     let truth: Vec<bool> = decided.value.iter().map(|t| t.occlusion == Occlusion::Occluded).collect();
     let touching: Vec<bool> = decided.value.iter().map(|t| t.contact == Contact::Touching).collect();
     for entry in entries {
-        if entry.basis == Basis::Truth {
-            testers.push(TesterResult {
+        let run = match entry.basis {
+            Basis::Truth => TesterRun {
                 name: entry.name,
                 basis: entry.basis,
                 occluded: truth.clone(),
-                counts: TesterCounts::new(&truth, &truth, 0),
                 counters: Counters::default(),
                 build_seconds: arbiter.seconds,
                 ns_per_query: per_query(decided.seconds, points.len()),
-                bytes: crate::shadow::ShadowTester::bytes(&arbiter.value),
+                bytes: arbiter.value.bytes(),
                 statistics: Vec::new(),
-            });
-            continue;
-        }
-        progress.stage(entry.name);
-        let built = timed(|| (entry.build)(input));
-        let tester = built.value?;
-        let answers = answer(tester.as_ref(), points, &|n| progress.advance(n))?;
-        testers.push(TesterResult {
-            name: entry.name,
-            basis: entry.basis,
-            counts: TesterCounts::new(&answers.occluded, &truth, answers.counters.undecided),
-            occluded: answers.occluded,
-            counters: answers.counters,
-            build_seconds: built.seconds,
-            ns_per_query: per_query(answers.seconds, points.len()),
-            bytes: tester.bytes(),
-            statistics: tester.statistics(),
-        });
+            },
+            _ => run_tester(entry, input, queries, progress)?,
+        };
+        let counts = TesterCounts::new(&run.occluded, &truth, run.counters.undecided);
+        testers.push(TesterResult { run, counts });
     }
     let counts = verdicts(&truth, &touching, &testers);
     Ok(LightVerdict { truth, touching, testers, counts })
+}
+
+/// Builds one tester and lets it answer all queries of a light.
+///
+/// # Errors
+/// Whatever the tester reports while it is built or asked.
+pub fn run_tester(
+    entry: &TesterEntry,
+    input: &BuildInput,
+    queries: &Queries,
+    progress: &dyn Progress,
+) -> Result<TesterRun> {
+    progress.stage(entry.name);
+    let built = timed(|| (entry.build)(input));
+    let tester = built.value?;
+    let answers = answer(tester.as_ref(), &queries.points, &|n| progress.advance(n))?;
+    Ok(TesterRun {
+        name: entry.name,
+        basis: entry.basis,
+        occluded: answers.occluded,
+        counters: answers.counters,
+        build_seconds: built.seconds,
+        ns_per_query: per_query(answers.seconds, queries.points.len()),
+        bytes: tester.bytes(),
+        statistics: tester.statistics(),
+    })
 }
 
 /// What a long run tells about itself.
@@ -125,12 +144,12 @@ fn per_query(seconds: f64, queries: usize) -> f64 {
 }
 
 fn verdicts(truth: &[bool], touching: &[bool], testers: &[TesterResult]) -> VerdictCounts {
-    let native: Vec<_> = testers.iter().filter(|t| t.basis == Basis::Exact).collect();
-    let embree = testers.iter().find(|t| t.name == "embree");
+    let native: Vec<_> = testers.iter().filter(|t| t.run.basis == Basis::Exact).collect();
+    let embree = testers.iter().find(|t| t.run.name == "embree");
     let mut counts = VerdictCounts::default();
     for (i, &truth) in truth.iter().enumerate() {
-        let native_wrong = native.iter().any(|t| t.occluded[i] != truth);
-        let embree_wrong = embree.is_some_and(|t| t.occluded[i] != truth);
+        let native_wrong = native.iter().any(|t| t.run.occluded[i] != truth);
+        let embree_wrong = embree.is_some_and(|t| t.run.occluded[i] != truth);
         match (native_wrong, embree_wrong) {
             (false, false) => counts.agree += 1,
             (true, false) => counts.native_wrong += 1,

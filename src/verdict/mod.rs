@@ -7,5 +7,5 @@ mod maps;
 
 pub use check::{ArbiterCheck, check_arbiter};
 pub use counts::{TesterCounts, VerdictCounts};
-pub use judge::{LightVerdict, Progress, TesterResult, judge};
+pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, run_tester};
 pub use maps::{PixelVerdict, Queries};

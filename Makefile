@@ -1,0 +1,53 @@
+# Set-up and the main jobs. Each target is complete on a fresh Debian 12 machine that has Rust, gcc and make.
+#
+#   make demo                      build, then validate two scenes of scenes/; the results are in out/
+#   make test                      every test
+#   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
+#   make lint                      formatting and warnings
+#   make planted-bugs              plant known bugs one by one and show which tests catch them
+#   make packages                  install the Debian packages that are missing, and nothing else
+#   make clean-demo                remove what `make demo` left
+
+CARGO ?= cargo
+DEMO_SIZE := 1280x720
+
+# A fresh rustup is not in PATH before the next login.
+export PATH := $(PATH):$(HOME)/.cargo/bin
+
+.DEFAULT_GOAL := help
+.PHONY: help packages demo test test-scenes lint planted-bugs clean-demo
+
+help:
+	@sed -n 's/^#   //p' Makefile
+
+packages:
+	@bash scripts/packages.sh
+
+demo: packages
+	$(CARGO) build --release
+	target/release/lightbuffer validate scenes/blocks.obj --size $(DEMO_SIZE) -o out/blocks
+	target/release/lightbuffer validate scenes/courtyard.glb --size $(DEMO_SIZE) -o out/courtyard
+	@echo "Images, difference maps and verdicts are in $(CURDIR)/out/blocks and $(CURDIR)/out/courtyard"
+
+# The library's own tests run in debug too: overflow checks and assertions see what release does not.
+test: packages
+	$(CARGO) test --release --no-fail-fast
+	$(CARGO) test --lib
+
+test-scenes: packages
+	@if [ -z "$(SCENES)" ]; then \
+		echo "make test-scenes needs a folder with scenes: make test-scenes SCENES=folder" >&2; exit 2; fi
+	@if [ ! -d "$(SCENES)" ]; then \
+		echo "make test-scenes: there is no folder $(SCENES); say make test-scenes SCENES=folder" >&2; exit 2; fi
+	SCENES="$$(cd "$(SCENES)" && pwd)" \
+		$(CARGO) test --release --features test-scenes --test shared_scenes -- --nocapture
+
+lint: packages
+	$(CARGO) fmt --check
+	$(CARGO) clippy --all-targets -- -D warnings
+
+planted-bugs: packages
+	bash tests/planted_bugs.sh
+
+clean-demo:
+	rm -rf out/blocks out/courtyard

@@ -1,0 +1,140 @@
+//! `lightbuffer info`: what a scene holds and what it calls for.
+
+use super::options::ViewOptions;
+use super::progress::Messages;
+use super::view::View;
+use super::{Outcome, output};
+use crate::error::Result;
+use crate::geometry::convexity::Surface;
+use crate::report::table::grouped;
+use crate::shadow::SceneIndex;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    view: ViewOptions,
+    /// The same as JSON; - is standard output instead of the text
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// No messages but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Facts {
+    scene: String,
+    hash: String,
+    objects: usize,
+    primitives: usize,
+    vertices: usize,
+    casting: usize,
+    duplicates: usize,
+    degenerate: usize,
+    non_finite: usize,
+    convex_solids: usize,
+    convex_sheets: usize,
+    low: [f32; 3],
+    high: [f32; 3],
+    lights: Vec<LightFacts>,
+    cameras: Vec<String>,
+    added: Vec<String>,
+    warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct LightFacts {
+    name: String,
+    position: [f32; 3],
+    intensity: [f32; 3],
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let view = View::load(&args.view, Messages::new(args.quiet))?;
+    let facts = facts(&view);
+    if let Some(path) = &args.json {
+        output::write_json(path, &facts)?;
+    }
+    if args.json.as_deref() != Some(std::path::Path::new("-")) {
+        output::print(&text(&facts))?;
+    }
+    Ok(Outcome::Right)
+}
+
+fn facts(view: &View) -> Facts {
+    let scene = &view.scene;
+    let index = SceneIndex::new(scene);
+    let surfaces = |wanted: Surface| {
+        index.convexity.iter().flatten().filter(|convexity| convexity.surface == wanted).count()
+    };
+    let (low, high) = scene.bounds().expect("a scene with triangles");
+    Facts {
+        scene: scene.name.clone(),
+        hash: format!("{:016x}", scene.hash()),
+        objects: scene.objects.len(),
+        primitives: scene.triangles.len(),
+        vertices: scene.vertices.len(),
+        casting: index.casting.len(),
+        duplicates: scene.triangles.len() - index.casting.len(),
+        degenerate: scene.dropped.degenerate,
+        non_finite: scene.dropped.non_finite,
+        convex_solids: surfaces(Surface::Closed),
+        convex_sheets: surfaces(Surface::Open),
+        low: low.to_array(),
+        high: high.to_array(),
+        lights: scene
+            .lights
+            .iter()
+            .map(|light| LightFacts {
+                name: light.name.clone(),
+                position: light.point.position.to_array(),
+                intensity: light.point.intensity,
+            })
+            .collect(),
+        cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
+        added: view.added.clone(),
+        warnings: scene.warnings.clone(),
+    }
+}
+
+fn text(facts: &Facts) -> String {
+    let mut out = String::new();
+    let count = |n: usize| grouped(n as u64);
+    let _ = writeln!(out, "{} (hash {})", facts.scene, facts.hash);
+    let _ = writeln!(
+        out,
+        "  {} objects, {} triangles, {} vertices",
+        count(facts.objects),
+        count(facts.primitives),
+        count(facts.vertices)
+    );
+    let _ = writeln!(
+        out,
+        "  cast: {} triangles ({} exact duplicates merged); dropped: {} of zero area, {} not finite",
+        count(facts.casting),
+        count(facts.duplicates),
+        count(facts.degenerate),
+        count(facts.non_finite)
+    );
+    let _ = writeln!(
+        out,
+        "  convex, verified: {} solids, {} open sheets",
+        count(facts.convex_solids),
+        count(facts.convex_sheets)
+    );
+    let _ = writeln!(out, "  bounds: {:?} to {:?}", facts.low, facts.high);
+    for light in &facts.lights {
+        let _ = writeln!(
+            out,
+            "  light {}: point at {:?}, intensity {:?}",
+            light.name, light.position, light.intensity
+        );
+    }
+    for camera in &facts.cameras {
+        let _ = writeln!(out, "  camera {camera}");
+    }
+    out
+}

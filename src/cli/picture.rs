@@ -1,0 +1,114 @@
+//! The image of a run: shaded points, the masks of every light, and what made them.
+
+use super::view::{Seen, View};
+use crate::error::{Error, Result};
+use crate::film::{CategoryMap, ImagePlanes};
+use crate::report::images::{LightMaps, picture_planes};
+use crate::report::validation::EmbreeFacts;
+use crate::shading::shade_picture;
+use crate::verdict::{LightVerdict, Queries, TesterRun};
+
+/// A preview and the word for it in its file name.
+pub struct Preview {
+    /// `difference` or `verdict`.
+    pub kind: &'static str,
+    /// The map.
+    pub colours: CategoryMap,
+}
+
+/// The picture with the shadows of one tester, a run for each light of the scene.
+///
+/// # Errors
+/// Never for the points of a view.
+pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> Result<ImagePlanes> {
+    let mut point_of_pixel = vec![u32::MAX; seen.hits.size.pixels()];
+    for (i, &pixel) in seen.visible.pixels.iter().enumerate() {
+        point_of_pixel[pixel as usize] = i as u32;
+    }
+    let sees: Vec<Vec<bool>> = shadows
+        .iter()
+        .map(|(queries, run)| {
+            let mut sees = vec![false; seen.visible.points.len()];
+            for (&pixel, &occluded) in queries.pixels.iter().zip(&run.occluded) {
+                sees[point_of_pixel[pixel as usize] as usize] = !occluded;
+            }
+            sees
+        })
+        .collect();
+    let shaded = shade_picture(&view.scene, &view.camera, &view.scene.lights, &seen.visible, &sees);
+    picture_planes(seen.hits.size, &view.scene, &seen.visible, &shaded)
+}
+
+/// The run of one tester at every light.
+///
+/// # Errors
+/// If that tester was skipped.
+pub fn runs_of<'v>(
+    judged: &'v [(Queries, LightVerdict)],
+    tester: &str,
+) -> Result<Vec<(&'v Queries, &'v TesterRun)>> {
+    let run = |(queries, verdict): &'v (Queries, LightVerdict)| Some((queries, &verdict.tester(tester)?.run));
+    judged.iter().map(run).collect::<Option<Vec<_>>>().ok_or_else(|| {
+        Error::Usage(format!("{tester} would need more than 2e11 tests here; choose another --shadow"))
+    })
+}
+
+/// Adds one `shadow.<light>.<tester>` channel.
+///
+/// # Errors
+/// If the planes have it already.
+pub fn add_mask(planes: &mut ImagePlanes, name: &str, queries: &Queries, run: &TesterRun) -> Result<()> {
+    let mut samples = vec![0.0; planes.size().pixels()];
+    for (&pixel, &occluded) in queries.pixels.iter().zip(&run.occluded) {
+        samples[pixel as usize] = f32::from(u8::from(occluded));
+    }
+    planes.add_channel(format!("shadow.{name}.{}", run.name), samples)
+}
+
+/// Adds the channels `shadow.<light>.*` and returns the previews of the light's maps.
+///
+/// # Errors
+/// If the planes have such channels already.
+pub fn add_light(
+    planes: &mut ImagePlanes,
+    name: &str,
+    queries: &Queries,
+    verdict: &LightVerdict,
+    tester: &str,
+) -> Result<Vec<Preview>> {
+    for result in &verdict.testers {
+        add_mask(planes, name, queries, &result.run)?;
+    }
+    let Some(maps) = LightMaps::new(planes.size(), name, queries, verdict, tester) else {
+        return Ok(Vec::new());
+    };
+    maps.add_to(planes)?;
+    let difference = maps.difference_map()?.map(|colours| Preview { kind: "difference", colours });
+    let verdict = Preview { kind: "verdict", colours: maps.verdict_map()? };
+    Ok(difference.into_iter().chain([verdict]).collect())
+}
+
+/// Says in the file what it shows and what made it. Times and machines stay out, so that equal pictures
+/// are equal files.
+///
+/// # Errors
+/// If an attribute is there already.
+pub fn add_attributes(
+    planes: &mut ImagePlanes,
+    view: &View,
+    testers: &[&str],
+    tester: &str,
+    embree: Option<&EmbreeFacts>,
+) -> Result<()> {
+    planes.add_attribute("version", env!("CARGO_PKG_VERSION"))?;
+    planes.add_attribute("scene", &view.scene.name)?;
+    planes.add_attribute("sceneHash", format!("{:016x}", view.scene.hash()))?;
+    planes.add_attribute("camera", &view.camera.name)?;
+    planes.add_attribute("testers", testers.join(" "))?;
+    planes.add_attribute("shadow", tester)?;
+    if let Some(embree) = embree {
+        planes.add_attribute("embree", &embree.version)?;
+        planes.add_attribute("embreeEpsilon", format!("{:e}", embree.epsilon))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,171 @@
+//! `lightbuffer render`: a scene becomes an OpenEXR picture.
+
+use super::options::{RunOptions, ViewOptions};
+use super::progress::{Bars, Messages};
+use super::view::{Seen, View};
+use super::{Outcome, output, picture, validate};
+use crate::error::Result;
+use crate::film::{unique_safe_names, write_exr};
+use crate::report::table::statistics;
+use crate::report::validation::EmbreeFacts;
+use crate::scene::Light;
+use crate::shadow::{Basis, BuildInput, EmbreeSettings, Receivers, SceneIndex, TesterEntry, find};
+use crate::verdict::{LightVerdict, Queries, TesterRun, judge, run_tester};
+use serde::Serialize;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = validate::CHANNELS)]
+pub struct Args {
+    #[command(flatten)]
+    view: ViewOptions,
+    /// OpenEXR file to write; a PNG preview is written beside it
+    #[arg(short, long, value_name = "OUT.exr")]
+    output: PathBuf,
+    /// Tester of the shadows
+    #[arg(long, value_name = "TESTER", default_value = "light-buffer")]
+    shadow: String,
+    /// Leave out the difference and verdict channels, and the time that Embree and the truth take
+    #[arg(long)]
+    no_verdict: bool,
+    /// Facts of the run as JSON; - is standard output
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    run: RunOptions,
+}
+
+#[derive(Debug, Serialize)]
+struct Facts {
+    scene: String,
+    width: u32,
+    height: u32,
+    shadow: String,
+    lights: Vec<LightFacts>,
+}
+
+#[derive(Debug, Serialize)]
+struct LightFacts {
+    name: String,
+    queries: u64,
+    facing_away: u64,
+    shadowed: u64,
+    build_seconds: f64,
+    ns_per_query: f64,
+    bytes: usize,
+}
+
+pub fn run(args: &Args) -> Result<Outcome> {
+    let messages = Messages::new(args.run.quiet);
+    args.run.pool()?.install(|| render(args, messages))
+}
+
+fn render(args: &Args, messages: Messages) -> Result<Outcome> {
+    let tester = find(&args.shadow)?;
+    let view = View::load(&args.view, messages)?;
+    let seen = view.look(&args.view);
+    let index = SceneIndex::new(&view.scene);
+    let threads = rayon::current_num_threads();
+    let embree = if args.no_verdict { None } else { validate::embree_facts(threads, args.run.embree_epsilon)? };
+    let mut entries = vec![tester];
+    if embree.is_some() && tester.name != "embree" {
+        entries.push(find("embree")?);
+    }
+    let mut lights = Vec::new();
+    for light in &view.scene.lights {
+        let position = light.point.position;
+        let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
+        let input = BuildInput {
+            scene: &view.scene,
+            index: &index,
+            light: position,
+            resolution: args.run.resolution,
+            receivers: Receivers::Surfaces,
+            embree: EmbreeSettings { epsilon: args.run.embree_epsilon, threads },
+        };
+        let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
+        let shadow = if args.no_verdict {
+            Shadow::Alone(run_tester(tester, &input, &queries, &bars)?)
+        } else {
+            Shadow::Judged(judge(&input, &queries, &entries, &bars)?)
+        };
+        bars.finish();
+        lights.push((queries, shadow));
+    }
+    write(args, &view, &seen, &lights, &entries, embree.as_ref())?;
+    if args.run.stats {
+        let runs = view.scene.lights.iter().zip(&lights).map(|(l, (_, shadow))| (l.name.as_str(), shadow.run()));
+        eprint!("{}", statistics(&seen.hits, runs));
+    }
+    messages.say(&format!("wrote {}", args.output.display()));
+    let wrong = lights.iter().any(|(_, shadow)| shadow.is_native_wrong());
+    Ok(if wrong { Outcome::NativeWrong } else { Outcome::Right })
+}
+
+/// The shadows of one light: the tester's answers, with or without a verdict on them.
+enum Shadow {
+    Alone(TesterRun),
+    Judged(LightVerdict),
+}
+
+impl Shadow {
+    fn run(&self) -> &TesterRun {
+        match self {
+            Shadow::Alone(run) => run,
+            // The tester of the picture is the first that is judged.
+            Shadow::Judged(verdict) => &verdict.testers[0].run,
+        }
+    }
+
+    fn is_native_wrong(&self) -> bool {
+        match self {
+            Shadow::Alone(_) => false,
+            Shadow::Judged(verdict) => {
+                verdict.testers.iter().any(|t| t.run.basis == Basis::Exact && t.counts.wrong > 0)
+            }
+        }
+    }
+}
+
+fn write(
+    args: &Args,
+    view: &View,
+    seen: &Seen,
+    lights: &[(Queries, Shadow)],
+    entries: &[&TesterEntry],
+    embree: Option<&EmbreeFacts>,
+) -> Result<()> {
+    let runs: Vec<_> = lights.iter().map(|(queries, shadow)| (queries, shadow.run())).collect();
+    let mut planes = picture::shaded(view, seen, &runs)?;
+    let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
+    for (name, (queries, shadow)) in names.iter().zip(lights) {
+        match shadow {
+            Shadow::Alone(run) => picture::add_mask(&mut planes, name, queries, run)?,
+            Shadow::Judged(verdict) => {
+                picture::add_light(&mut planes, name, queries, verdict, &args.shadow)?;
+            }
+        }
+    }
+    let testers: Vec<_> = entries.iter().map(|entry| entry.name).collect();
+    picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree)?;
+    write_exr(&args.output, &planes)?;
+    output::write_preview(&args.output.with_extension("png"), &planes, args.run.exposure)?;
+    let Some(path) = &args.json else { return Ok(()) };
+    let light_facts = |(light, (queries, run)): (&Light, &(&Queries, &TesterRun))| LightFacts {
+        name: light.name.clone(),
+        queries: queries.points.len() as u64,
+        facing_away: queries.facing_away.len() as u64,
+        shadowed: run.occluded.iter().filter(|&&o| o).count() as u64,
+        build_seconds: run.build_seconds,
+        ns_per_query: run.ns_per_query,
+        bytes: run.bytes,
+    };
+    let facts = Facts {
+        scene: view.scene.name.clone(),
+        width: args.view.size.width,
+        height: args.view.size.height,
+        shadow: args.shadow.clone(),
+        lights: view.scene.lights.iter().zip(&runs).map(light_facts).collect(),
+    };
+    output::write_json(path, &facts)
+}

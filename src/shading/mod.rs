@@ -1,0 +1,15 @@
+//! Illumination of both papers: ambient, Lambert and Phong.
+//!
+//! Shading never asks who sees a light; it is handed the lights that are seen. Everything is pure and built
+//! from operations that IEEE 754 rounds correctly, with powers from `libm`, so that a picture has the same
+//! bits on every platform.
+
+mod light;
+mod normal;
+mod picture;
+mod shade;
+
+pub use light::{LightSample, sample_light};
+pub use normal::{geometric_normal, shading_normal};
+pub use picture::{ShadedPoint, shade_picture};
+pub use shade::{Ambient, shade};
