@@ -1,16 +1,51 @@
 //! Scene files: one module a format, one entry for all.
+//!
+//! Input is hostile. Every loader reads its bytes through [`confined`], checks what a file declares against
+//! what it holds before memory is asked for, keeps within [`limits`], and turns whatever it cannot read into
+//! one line with file and place. What is left out without being an error is among the scene's warnings.
+
+mod confined;
+mod gltf;
+pub mod limits;
+mod obj;
+mod polygon;
+mod shading_normals;
+mod text;
 
 use super::Scene;
 use crate::error::{Error, Place, Result};
 use std::path::Path;
 
-/// Reads a scene file; the extension of its name decides the format.
+/// Reads a scene file; the extension of its name decides the format: `.obj`, `.gltf` or `.glb`.
+///
+/// Files that the scene names are read only from the folder that holds it, or from below.
 ///
 /// # Errors
-/// One line with file and place for whatever cannot be read.
+/// One line with file and place for whatever cannot be read, and for a file without a single triangle.
 pub fn load(path: &Path) -> Result<Scene> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-    match extension.as_str() {
-        _ => Err(Error::input(path, Place::File, "expected a name that ends in .obj, .gltf or .glb")),
+    let scene = match extension.as_str() {
+        "obj" => obj::load(path)?,
+        "gltf" => gltf::load(path, gltf::Container::Text)?,
+        "glb" => gltf::load(path, gltf::Container::Binary)?,
+        _ => {
+            return Err(Error::input(path, Place::File, "expected a name that ends in .obj, .gltf or .glb"));
+        }
+    };
+    if scene.triangles.is_empty() {
+        let dropped = scene.dropped.degenerate + scene.dropped.non_finite;
+        let why = match dropped {
+            0 => "expected at least one triangle, found none".to_owned(),
+            _ => format!(
+                "expected at least one triangle, found {dropped} of zero area or with non-finite corners"
+            ),
+        };
+        return Err(Error::input(path, Place::File, why));
     }
+    Ok(scene)
+}
+
+/// The name that a scene is reported under: its file's name.
+fn scene_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| "scene".into(), |name| text::printable(&name.to_string_lossy()))
 }

@@ -1,0 +1,187 @@
+//! The parts of glTF's JSON that are read here, as they stand in the file.
+//!
+//! `serde_json` reads them and names line and column of what does not fit. The `gltf` crate's own types are
+//! not used: they cut indices to 32 bits, so that 4294967296 silently means 0, round transforms to f32, and
+//! panic on a `POSITION` that does not exist while they validate. Nothing here has been checked beyond its
+//! type.
+
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
+
+/// A whole document.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Document {
+    pub(super) asset: Asset,
+    pub(super) scene: Option<u64>,
+    #[serde(default)]
+    pub(super) scenes: Vec<SceneEntry>,
+    #[serde(default)]
+    pub(super) nodes: Vec<Node>,
+    #[serde(default)]
+    pub(super) meshes: Vec<Mesh>,
+    #[serde(default)]
+    pub(super) accessors: Vec<Accessor>,
+    #[serde(default)]
+    pub(super) buffer_views: Vec<BufferView>,
+    #[serde(default)]
+    pub(super) buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub(super) materials: Vec<MaterialEntry>,
+    #[serde(default)]
+    pub(super) cameras: Vec<CameraEntry>,
+    #[serde(default)]
+    pub(super) animations: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub(super) extensions_used: Vec<String>,
+    #[serde(default)]
+    pub(super) extensions_required: Vec<String>,
+    #[serde(default)]
+    pub(super) extensions: DocumentExtensions,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Asset {
+    pub(super) version: String,
+    pub(super) min_version: Option<String>,
+}
+
+#[derive(Deserialize, Default)]
+pub(super) struct DocumentExtensions {
+    #[serde(rename = "KHR_lights_punctual")]
+    pub(super) lights: Option<Lights>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Lights {
+    #[serde(default)]
+    pub(super) lights: Vec<LightEntry>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct LightEntry {
+    pub(super) name: Option<String>,
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    pub(super) color: Option<[f64; 3]>,
+    pub(super) intensity: Option<f64>,
+    pub(super) range: Option<f64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct SceneEntry {
+    #[serde(default)]
+    pub(super) nodes: Vec<u64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Node {
+    pub(super) name: Option<String>,
+    #[serde(default)]
+    pub(super) children: Vec<u64>,
+    pub(super) mesh: Option<u64>,
+    pub(super) camera: Option<u64>,
+    pub(super) skin: Option<u64>,
+    pub(super) matrix: Option<[f64; 16]>,
+    pub(super) translation: Option<[f64; 3]>,
+    pub(super) rotation: Option<[f64; 4]>,
+    pub(super) scale: Option<[f64; 3]>,
+    #[serde(default)]
+    pub(super) extensions: NodeExtensions,
+}
+
+#[derive(Deserialize, Default)]
+pub(super) struct NodeExtensions {
+    #[serde(rename = "KHR_lights_punctual")]
+    pub(super) light: Option<LightReference>,
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    pub(super) instancing: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct LightReference {
+    pub(super) light: u64,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Mesh {
+    pub(super) name: Option<String>,
+    pub(super) primitives: Vec<Primitive>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Primitive {
+    #[serde(default)]
+    pub(super) attributes: BTreeMap<String, u64>,
+    pub(super) indices: Option<u64>,
+    pub(super) material: Option<u64>,
+    pub(super) mode: Option<u64>,
+    #[serde(default)]
+    pub(super) targets: Vec<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub(super) buffer_view: Option<u64>,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u64,
+    pub(super) count: u64,
+    #[serde(rename = "type")]
+    pub(super) shape: String,
+    pub(super) sparse: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct BufferView {
+    pub(super) buffer: u64,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) byte_length: u64,
+    pub(super) byte_stride: Option<u64>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Buffer {
+    pub(super) uri: Option<String>,
+    pub(super) byte_length: u64,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct MaterialEntry {
+    pub(super) name: Option<String>,
+    #[serde(default)]
+    pub(super) pbr_metallic_roughness: MetallicRoughness,
+    pub(super) normal_texture: Option<IgnoredAny>,
+    pub(super) occlusion_texture: Option<IgnoredAny>,
+    pub(super) emissive_texture: Option<IgnoredAny>,
+    pub(super) emissive_factor: Option<[f64; 3]>,
+    pub(super) alpha_mode: Option<String>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct MetallicRoughness {
+    pub(super) base_color_factor: Option<[f64; 4]>,
+    pub(super) base_color_texture: Option<IgnoredAny>,
+    pub(super) metallic_factor: Option<f64>,
+    pub(super) roughness_factor: Option<f64>,
+    pub(super) metallic_roughness_texture: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct CameraEntry {
+    pub(super) name: Option<String>,
+    pub(super) perspective: Option<Perspective>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Perspective {
+    pub(super) yfov: f64,
+}

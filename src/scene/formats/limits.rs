@@ -1,0 +1,40 @@
+//! How much a scene file may ask for.
+//!
+//! Memory is bounded by these numbers and not by what a file claims: a few hundred bytes can declare, by
+//! shared meshes or by counts alone, more than any machine holds.
+
+/// The largest scene file, in bytes.
+pub const MAX_SCENE_BYTES: u64 = 2 << 30;
+
+/// The most bytes that all files named by one scene may hold together.
+pub const MAX_REFERENCED_BYTES: u64 = 2 << 30;
+
+/// The most bytes of material libraries (.mtl): an entry of nine bytes becomes a material of hundreds.
+pub const MAX_MATERIAL_BYTES: u64 = 16 << 20;
+
+/// The most triangles after instancing, before degenerate ones are dropped.
+pub const MAX_TRIANGLES: u64 = 1 << 26;
+
+/// The most objects; `object_id` image channels hold them exactly up to 2^24.
+pub const MAX_OBJECTS: u64 = 1 << 20;
+
+/// The most lights; each costs a pass over the image.
+pub const MAX_LIGHTS: usize = 1 << 10;
+
+/// The most generations in a tree of nodes.
+pub const MAX_NODE_DEPTH: usize = 1 << 10;
+
+/// The most `{` in glTF's JSON; the shortest, `{}`, can become a node of some hundred bytes.
+pub const MAX_JSON_OBJECTS: usize = 1 << 21;
+
+/// The most values in glTF's JSON, counted by what separates them.
+pub const MAX_JSON_VALUES: usize = 1 << 26;
+
+/// The most `f` lines of an OBJ file; the shortest becomes a record of a hundred bytes.
+pub const MAX_FACES: usize = 1 << 24;
+
+/// The most corners on all `f` lines of an OBJ file together.
+pub const MAX_CORNERS: usize = 1 << 26;
+
+/// The most corners of a polygon that is not strictly convex: cutting it up takes quadratic time.
+pub const MAX_CONCAVE_CORNERS: usize = 1 << 12;
