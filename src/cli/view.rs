@@ -23,7 +23,7 @@ impl View {
     ///
     /// # Errors
     /// Whatever the loader finds, an unknown camera, or any warning under `--strict`.
-    pub fn load(options: &ViewOptions, messages: &Messages) -> Result<View> {
+    pub fn load(options: &ViewOptions, messages: Messages) -> Result<View> {
         let mut scene = formats::load(&options.scene)?;
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
