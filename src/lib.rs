@@ -1,5 +1,7 @@
 //! Exact shadow testing.
 
+#[cfg(feature = "embree")]
+pub mod embree;
 pub mod error;
 pub mod scene;
 
