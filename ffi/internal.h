@@ -1,0 +1,59 @@
+/* What shim.c and queries.c share; nobody else includes this. */
+#ifndef LIGHTBUFFER_INTERNAL_H
+#define LIGHTBUFFER_INTERNAL_H
+
+#include "shim.h"
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#if LB_EMBREE_MAJOR == 4
+#include <embree4/rtcore.h>
+#elif LB_EMBREE_MAJOR == 3
+#include <embree3/rtcore.h>
+#else
+#error "LB_EMBREE_MAJOR must be 3 or 4"
+#endif
+
+#if RTC_VERSION_MAJOR != LB_EMBREE_MAJOR
+#error "the headers are not of the major version that LB_EMBREE_MAJOR says"
+#endif
+
+struct LbDevice {
+    RTCDevice handle;
+    _Atomic int64_t bytes;
+    /* First error that Embree raised on a thread of its own: written by whoever moves `stray_state` from 0 to 1. */
+    _Atomic int stray_state;
+    LbError stray;
+};
+
+struct LbScene {
+    LbDevice *device;
+    RTCScene handle;
+    bool filtered;
+};
+
+/* The floating-point control word: MXCSR, or the C environment where there is none. */
+#if defined(__x86_64__)
+typedef unsigned int FloatControl;
+#else
+#include <fenv.h>
+typedef fenv_t FloatControl;
+#endif
+
+/* Everything that a call into Embree is wrapped in. */
+typedef struct Call {
+    LbError *error;
+    FloatControl float_control;
+} Call;
+
+/* Every function of shim.h begins with the one and returns the other. `device` may be null. */
+Call lb_begin_call(LbError *error);
+uint32_t lb_end_call(Call call, LbDevice *device);
+/* An error of the shim's own; one that Embree reported before it wins. */
+void lb_fail(Call call, const char *text);
+
+/* The filter of a scene with LB_SCENE_FILTERED. */
+void lb_exclude_receiver(const struct RTCFilterFunctionNArguments *arguments);
+
+#endif

@@ -1,0 +1,201 @@
+/* The queries of shim.h and the filter, for Embree 3 and Embree 4. See README.md. */
+
+#include "internal.h"
+
+#include <float.h>
+#include <stdalign.h>
+#include <string.h>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+/* ---- The context of a query and the filter ---- */
+
+#if LB_EMBREE_MAJOR == 4
+typedef struct RTCRayQueryContext EmbreeContext;
+#else
+typedef struct RTCIntersectContext EmbreeContext;
+#endif
+
+/* Embree hands a pointer to `embree` to the filter, which is where the rest is found: `embree` must come first. */
+typedef struct QueryContext {
+    EmbreeContext embree;
+    /* Excluded triangle of each ray of the packet, by ray id. */
+    const uint32_t *excluded;
+} QueryContext;
+
+/*
+ * Embree may call with any N up to the packet's width, lanes in any order, so a ray is known by its id alone. Rays
+ * and hits of N lanes are arrays of 4-byte fields, one after another (rtcore_ray.h has accessors, for C++ only).
+ */
+void lb_exclude_receiver(const struct RTCFilterFunctionNArguments *arguments)
+{
+    enum { RAY_ID_FIELD = 10, HIT_PRIMITIVE_FIELD = 5 };
+    const QueryContext *context = (const QueryContext *)arguments->context;
+    const unsigned int lanes = arguments->N;
+    const unsigned int *ray_id = (const unsigned int *)arguments->ray + RAY_ID_FIELD * lanes;
+    const unsigned int *primitive = (const unsigned int *)arguments->hit + HIT_PRIMITIVE_FIELD * lanes;
+    for (unsigned int lane = 0; lane < lanes; lane++) {
+        /* Only -1 is a lane with a hit; the id of any other lane means nothing. */
+        if (arguments->valid[lane] == -1 && context->excluded[ray_id[lane]] == primitive[lane])
+            arguments->valid[lane] = 0;
+    }
+}
+
+/* ---- Queries ---- */
+
+/* The arguments of a query beside the rays, in the shape that this version of Embree wants them. */
+#if LB_EMBREE_MAJOR == 4
+typedef struct RTCOccludedArguments QueryArguments;
+
+static QueryArguments query_arguments(QueryContext *context, uint32_t flags)
+{
+    QueryArguments arguments;
+    rtcInitRayQueryContext(&context->embree);
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = flags & LB_QUERY_COHERENT ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    arguments.feature_mask =
+        (enum RTCFeatureFlags)(RTC_FEATURE_FLAG_TRIANGLE | RTC_FEATURE_FLAG_FILTER_FUNCTION_IN_GEOMETRY);
+    arguments.context = &context->embree;
+    return arguments;
+}
+
+#define OCCLUDED_1(scene, ray, arguments) rtcOccluded1(scene, ray, arguments)
+#define OCCLUDED_N(width, valid, scene, packet, arguments) rtcOccluded##width(valid, scene, packet, arguments)
+#else
+typedef EmbreeContext *QueryArguments;
+
+static QueryArguments query_arguments(QueryContext *context, uint32_t flags)
+{
+    rtcInitIntersectContext(&context->embree);
+    context->embree.flags =
+        flags & LB_QUERY_COHERENT ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return &context->embree;
+}
+
+#define OCCLUDED_1(scene, ray, arguments) rtcOccluded1(scene, *(arguments), ray)
+#define OCCLUDED_N(width, valid, scene, packet, arguments) rtcOccluded##width(valid, scene, *(arguments), packet)
+#endif
+
+/* Embree marks an occluded ray by t_far = -infinity and leaves that of any other as it was. */
+static uint8_t answer(float t_far) { return t_far < -FLT_MAX; }
+
+static void occluded_1(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, uint8_t *answers)
+{
+    QueryContext context;
+    QueryArguments arguments = query_arguments(&context, flags);
+    for (size_t i = 0; i < count; i++) {
+        const LbRay *from = &rays[i];
+        struct RTCRay ray;
+        ray.org_x = from->origin[0];
+        ray.org_y = from->origin[1];
+        ray.org_z = from->origin[2];
+        ray.tnear = from->t_near;
+        ray.dir_x = from->direction[0];
+        ray.dir_y = from->direction[1];
+        ray.dir_z = from->direction[2];
+        ray.time = 0.0f;
+        ray.tfar = from->t_far;
+        ray.mask = 0xFFFFFFFFu;
+        ray.id = 0;
+        ray.flags = 0;
+        context.excluded = &from->excluded;
+        OCCLUDED_1(scene->handle, &ray, &arguments);
+        answers[i] = answer(ray.tfar);
+    }
+}
+
+/* Where the fields of a packet's lanes lie: RTCRay4, 8 and 16 differ in the length of these arrays alone. */
+typedef struct Lanes {
+    float *org_x, *org_y, *org_z, *tnear, *dir_x, *dir_y, *dir_z, *tfar;
+} Lanes;
+
+static inline void load_lanes(Lanes to, const LbRay *rays, unsigned count)
+{
+    unsigned lane = 0;
+#if defined(__x86_64__)
+    /* Four rays at a time, because this is a good part of what a short query takes. */
+    _Static_assert(offsetof(LbRay, t_near) == 12 && offsetof(LbRay, direction) == 16 && offsetof(LbRay, t_far) == 28
+                       && sizeof(LbRay) % sizeof(float) == 0,
+                   "a ray begins with its start and its way, four floats each");
+    for (; lane + 4 <= count; lane += 4) {
+        const float *ray = (const float *)&rays[lane];
+        const size_t next = sizeof(LbRay) / sizeof(float);
+        __m128 start_0 = _mm_loadu_ps(ray), way_0 = _mm_loadu_ps(ray + 4);
+        __m128 start_1 = _mm_loadu_ps(ray + next), way_1 = _mm_loadu_ps(ray + next + 4);
+        __m128 start_2 = _mm_loadu_ps(ray + 2 * next), way_2 = _mm_loadu_ps(ray + 2 * next + 4);
+        __m128 start_3 = _mm_loadu_ps(ray + 3 * next), way_3 = _mm_loadu_ps(ray + 3 * next + 4);
+        _MM_TRANSPOSE4_PS(start_0, start_1, start_2, start_3);
+        _MM_TRANSPOSE4_PS(way_0, way_1, way_2, way_3);
+        _mm_storeu_ps(to.org_x + lane, start_0);
+        _mm_storeu_ps(to.org_y + lane, start_1);
+        _mm_storeu_ps(to.org_z + lane, start_2);
+        _mm_storeu_ps(to.tnear + lane, start_3);
+        _mm_storeu_ps(to.dir_x + lane, way_0);
+        _mm_storeu_ps(to.dir_y + lane, way_1);
+        _mm_storeu_ps(to.dir_z + lane, way_2);
+        _mm_storeu_ps(to.tfar + lane, way_3);
+    }
+#endif
+    for (; lane < count; lane++) {
+        to.org_x[lane] = rays[lane].origin[0];
+        to.org_y[lane] = rays[lane].origin[1];
+        to.org_z[lane] = rays[lane].origin[2];
+        to.tnear[lane] = rays[lane].t_near;
+        to.dir_x[lane] = rays[lane].direction[0];
+        to.dir_y[lane] = rays[lane].direction[1];
+        to.dir_z[lane] = rays[lane].direction[2];
+        to.tfar[lane] = rays[lane].t_far;
+    }
+}
+
+/*
+ * Defines occluded_WIDTH: packets of WIDTH rays, whose alignment is WIDTH floats; the lanes past the last ray are
+ * inactive. Packets of 4 and 8 are one line each.
+ */
+#define DEFINE_OCCLUDED(WIDTH)                                                                                         \
+    static void occluded_##WIDTH(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags,                \
+                                 uint8_t *answers)                                                                     \
+    {                                                                                                                  \
+        QueryContext context;                                                                                          \
+        QueryArguments arguments = query_arguments(&context, flags);                                                   \
+        struct RTCRay##WIDTH packet;                                                                                   \
+        uint32_t excluded[WIDTH];                                                                                      \
+        alignas(4 * WIDTH) int valid[WIDTH];                                                                           \
+        const Lanes lanes = { packet.org_x, packet.org_y, packet.org_z, packet.tnear,                                  \
+                              packet.dir_x, packet.dir_y, packet.dir_z, packet.tfar };                                 \
+        memset(&packet, 0, sizeof packet);                                                                             \
+        context.excluded = excluded;                                                                                   \
+        for (unsigned lane = 0; lane < WIDTH; lane++) {                                                                \
+            packet.mask[lane] = 0xFFFFFFFFu;                                                                           \
+            packet.id[lane] = lane;                                                                                    \
+            excluded[lane] = LB_NO_TRIANGLE;                                                                           \
+            valid[lane] = -1;                                                                                          \
+        }                                                                                                              \
+        for (size_t first = 0; first < count; first += WIDTH) {                                                        \
+            const unsigned active = count - first < WIDTH ? (unsigned)(count - first) : WIDTH;                         \
+            load_lanes(lanes, &rays[first], active);                                                                   \
+            for (unsigned lane = 0; scene->filtered && lane < active; lane++)                                          \
+                excluded[lane] = rays[first + lane].excluded;                                                          \
+            for (unsigned lane = active; lane < WIDTH; lane++)                                                         \
+                valid[lane] = 0;                                                                                       \
+            OCCLUDED_N(WIDTH, valid, scene->handle, &packet, &arguments);                                              \
+            for (unsigned lane = 0; lane < active; lane++)                                                             \
+                answers[first + lane] = answer(packet.tfar[lane]);                                                     \
+        }                                                                                                              \
+    }
+
+DEFINE_OCCLUDED(16)
+
+uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t width, uint32_t flags,
+                           uint8_t *answers, LbError *error)
+{
+    Call call = lb_begin_call(error);
+    switch (width) {
+    case 1: occluded_1(scene, rays, count, flags, answers); break;
+    case 16: occluded_16(scene, rays, count, flags, answers); break;
+    default: lb_fail(call, "packets have 1 or 16 rays");
+    }
+    return lb_end_call(call, scene->device);
+}

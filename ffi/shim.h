@@ -1,0 +1,92 @@
+/*
+ * The one header that bindgen reads. Plain C types only: no type of Embree appears here, so the Rust side is the same
+ * text whether the shim was compiled against Embree 3 or Embree 4. See README.md in this folder.
+ *
+ * Every function returns LB_OK or LB_FAILED, and fills `error` if it fails. Pointers are never null unless said.
+ * Every function leaves the floating-point control and status word (MXCSR) as the caller had it.
+ */
+#ifndef LIGHTBUFFER_SHIM_H
+#define LIGHTBUFFER_SHIM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { LB_OK = 0, LB_FAILED = 1 };
+
+/* `LbRay.excluded` of a ray that no triangle is excluded for. */
+#define LB_NO_TRIANGLE 0xFFFFFFFFu
+
+/* Scene flags. */
+enum {
+    /* Watertight traversal and intersection. */
+    LB_SCENE_ROBUST = 1,
+    /* Register the filter that makes a ray pass through its excluded triangle. Costs time even where it changes nothing. */
+    LB_SCENE_FILTERED = 2
+};
+
+/* Build quality. */
+enum { LB_BUILD_LOW = 0, LB_BUILD_MEDIUM = 1, LB_BUILD_HIGH = 2 };
+
+/* Query flags. */
+enum {
+    /* The rays of a batch lie close together in space and direction: a promise about speed, not about answers. */
+    LB_QUERY_COHERENT = 1
+};
+
+/* What went wrong first. `text` is one line, ends in 0 and is cut if it is longer. */
+typedef struct LbError {
+    char text[256];
+} LbError;
+
+/* Embree's device, where its errors are stored and how much memory it holds. */
+typedef struct LbDevice LbDevice;
+
+/* A committed scene of one triangle mesh. It refers to buffers of the caller and to its device. */
+typedef struct LbScene LbScene;
+
+/* What the library that was loaded says of itself; all but the version are 0 or 1. */
+typedef struct LbDeviceInfo {
+    uint32_t version_major;
+    uint32_t version_minor;
+    uint32_t version_patch;
+    /* Whether packets of 4, 8 and 16 have traversal code of their own on this machine. */
+    uint32_t native_packet_4;
+    uint32_t native_packet_8;
+    uint32_t native_packet_16;
+} LbDeviceInfo;
+
+/* The segment origin + t * direction, t_near <= t <= t_far, in the space of the vertices. */
+typedef struct LbRay {
+    float origin[3];
+    float t_near;
+    float direction[3];
+    float t_far;
+    /* Index of the triangle that never blocks this ray, or LB_NO_TRIANGLE. Read only in a filtered scene. */
+    uint32_t excluded;
+} LbRay;
+
+/* A device that builds with `threads` threads; 0 leaves the number to Embree. */
+uint32_t lb_device_new(uint32_t threads, LbDevice **device, LbError *error);
+/* Scenes of the device must be gone. */
+uint32_t lb_device_free(LbDevice *device, LbError *error);
+uint32_t lb_device_info(const LbDevice *device, LbDeviceInfo *info, LbError *error);
+/* Bytes that Embree holds for all scenes of the device, as its memory monitor reports them. */
+uint32_t lb_device_bytes(LbDevice *device, int64_t *bytes, LbError *error);
+
+/*
+ * Builds a scene of one mesh. `vertices` holds 3 floats a vertex and one more float at the very end, because Embree
+ * reads 16 bytes at the last vertex; `triangles` holds 3 indices a triangle, all below `vertex_count`. Both must stay
+ * where they are, unchanged, until lb_scene_free.
+ */
+uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_count, const uint32_t *triangles,
+                      size_t triangle_count, uint32_t quality, uint32_t flags, LbScene **scene, LbError *error);
+uint32_t lb_scene_free(LbScene *scene, LbError *error);
+
+/*
+ * answers[i] = 1 if rays[i] meets a triangle, else 0, for i < count. `width` is 1 or 16: how many rays go to Embree
+ * at once. Any number of threads may query one scene at the same time.
+ */
+uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t width, uint32_t flags,
+                           uint8_t *answers, LbError *error);
+
+#endif

@@ -1,0 +1,44 @@
+//! Embree as oracle and as rival: scenes of triangles, asked for occlusion in batches.
+//!
+//! A [`Device`] is Embree itself with its threads; a [`TriangleScene`] is one triangle mesh, built; and
+//! [`TriangleScene::occluded`] answers many [`ShadowRay`]s. Beneath lies the C shim in `ffi/`, which hides whether it
+//! is Embree 3 or 4.
+//!
+//! An **oracle** run wants [`Robustness::Robust`] and [`Receiver::Excluded`], so that a ray passes through the triangle
+//! it starts on whatever its rounding. A **speed** run wants [`Receiver::Included`] and an epsilon as
+//! [`ShadowRay::t_near`], since a registered filter costs time even where it changes nothing.
+//!
+//! The floating-point control word is, after every call, what it was before.
+
+mod device;
+mod ffi;
+mod query;
+mod scene;
+
+#[cfg(test)]
+mod tests;
+
+pub use device::Device;
+pub use query::{CheckedRays, Coherence, PacketWidth, ShadowRay};
+pub use scene::{BuildQuality, Receiver, Robustness, SceneOptions, TriangleScene};
+
+use std::ffi::c_char;
+
+use crate::{Error, Result};
+
+/// Makes one call of the shim; what it fills in as its error becomes ours.
+fn call(function: impl FnOnce(*mut ffi::LbError) -> u32) -> Result<()> {
+    let mut error = ffi::LbError { text: [0; 256] };
+    match function(&mut error) {
+        ffi::LB_OK => Ok(()),
+        status => {
+            debug_assert_eq!(status, ffi::LB_FAILED);
+            Err(Error::Embree(text_of(&error.text)))
+        }
+    }
+}
+
+fn text_of(text: &[c_char]) -> String {
+    let bytes: Vec<u8> = text.iter().take_while(|&&c| c != 0).map(|&c| c as u8).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
