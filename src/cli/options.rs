@@ -74,8 +74,7 @@ const MOST_PIXELS: u64 = 1 << 28;
 
 fn parse_size(text: &str) -> std::result::Result<ImageSize, String> {
     let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    let (width, height): (u32, u32) =
-        sides.ok_or("expected WIDTHxHEIGHT in pixels, such as 1920x1080")?;
+    let (width, height): (u32, u32) = sides.ok_or("expected WIDTHxHEIGHT in pixels, such as 1920x1080")?;
     if width == 0 || height == 0 {
         return Err("both sides must be at least 1".into());
     }

@@ -19,8 +19,7 @@ pub fn folder(path: &Path) -> Result<()> {
 /// # Errors
 /// If the file cannot be written.
 pub fn write_json(path: &Path, document: &impl Serialize) -> Result<()> {
-    let mut text = serde_json::to_string_pretty(document)
-        .map_err(|e| Error::Usage(format!("JSON: {e}")))?;
+    let mut text = serde_json::to_string_pretty(document).map_err(|e| Error::Usage(format!("JSON: {e}")))?;
     text.push('\n');
     if path == Path::new("-") {
         print(&text)

@@ -66,7 +66,8 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let seen = view.look(&args.view);
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();
-    let embree = if args.no_verdict { None } else { validate::embree_facts(threads, args.run.embree_epsilon)? };
+    let embree =
+        if args.no_verdict { None } else { validate::embree_facts(threads, args.run.embree_epsilon)? };
     let mut entries = vec![tester];
     if embree.is_some() && tester.name != "embree" {
         entries.push(find("embree")?);
@@ -94,7 +95,8 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     }
     write(args, &view, &seen, &lights, &entries, embree.as_ref())?;
     if args.run.stats {
-        let runs = view.scene.lights.iter().zip(&lights).map(|(l, (_, shadow))| (l.name.as_str(), shadow.run()));
+        let runs =
+            view.scene.lights.iter().zip(&lights).map(|(l, (_, shadow))| (l.name.as_str(), shadow.run()));
         eprint!("{}", statistics(&seen.hits, runs));
     }
     messages.say(&format!("wrote {}", args.output.display()));

@@ -1,17 +1,15 @@
 //! `lightbuffer validate`: every tester against the truth.
 
+use super::Outcome;
 use super::options::{RunOptions, ViewOptions};
-use super::{output, picture};
 use super::progress::{Bars, Messages};
 use super::view::{Seen, View};
-use super::Outcome;
+use super::{output, picture};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
-use crate::shadow::{
-    Basis, BuildInput, EmbreeSettings, REGISTRY, Receivers, SceneIndex, TesterEntry, find,
-};
+use crate::shadow::{Basis, BuildInput, EmbreeSettings, REGISTRY, Receivers, SceneIndex, TesterEntry, find};
 use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
 use std::path::{Path, PathBuf};
 

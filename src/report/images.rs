@@ -37,9 +37,8 @@ pub fn picture_planes(
     for (k, name) in ["R", "G", "B"].into_iter().enumerate() {
         planes.add_channel(format!("albedo.{name}"), spread(0.0, &|i| shaded[i].albedo[k]))?;
     }
-    let object = |i: usize| {
-        visible.points[i].primitive().map_or(0.0, |p| scene.object_and_surface(p).0 as f32)
-    };
+    let object =
+        |i: usize| visible.points[i].primitive().map_or(0.0, |p| scene.object_and_surface(p).0 as f32);
     planes.add_channel("id.object", spread(0.0, &object))?;
     Ok(planes)
 }
@@ -110,7 +109,8 @@ impl LightMaps {
             let samples = difference.iter().map(value).collect();
             planes.add_channel(format!("shadow.{}.difference", self.light), samples)?;
         }
-        let code = |&(verdict, touching): &(PixelVerdict, bool)| f32::from(verdict.code() + 10 * u8::from(touching));
+        let code =
+            |&(verdict, touching): &(PixelVerdict, bool)| f32::from(verdict.code() + 10 * u8::from(touching));
         planes.add_channel(format!("shadow.{}.verdict", self.light), self.verdict.iter().map(code).collect())
     }
 

@@ -63,7 +63,8 @@ fn rows<'a>(text: &mut String, report: &dyn Fn(&str) -> Option<&'a TesterReport>
 }
 
 fn summary(totals: &Totals) -> String {
-    let native = format!("{} of {} native answers wrong", grouped(totals.native_wrong()), grouped(totals.queries));
+    let native =
+        format!("{} of {} native answers wrong", grouped(totals.native_wrong()), grouped(totals.queries));
     match totals.testers.get("embree") {
         Some(embree) => format!(
             "{native}, {} of Embree's ({} false shadow, {} false light)\n",
@@ -129,6 +130,9 @@ mod tests {
 
     #[test]
     fn counts_are_grouped_by_three() {
-        assert_eq!(["0", "999", "1,000", "12,345,678"], [0, 999, 1000, 12_345_678].map(grouped).each_ref().map(|s| s.as_str()));
+        assert_eq!(
+            ["0", "999", "1,000", "12,345,678"],
+            [0, 999, 1000, 12_345_678].map(grouped).each_ref().map(|s| s.as_str())
+        );
     }
 }

@@ -118,7 +118,8 @@ impl Totals {
                 });
                 let (before, now) = (totals.queries as f64, light.queries as f64);
                 if before + now > 0.0 {
-                    sum.ns_per_query = (sum.ns_per_query * before + tester.ns_per_query * now) / (before + now);
+                    sum.ns_per_query =
+                        (sum.ns_per_query * before + tester.ns_per_query * now) / (before + now);
                 }
                 sum.counts += tester.counts;
                 sum.build_seconds += tester.build_seconds;

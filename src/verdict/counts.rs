@@ -73,6 +73,9 @@ mod tests {
     #[test]
     fn errors_of_both_kinds_do_not_cancel() {
         let counts = TesterCounts::new(&[true, false, true, false], &[false, true, true, false], 5);
-        assert_eq!(counts, TesterCounts { shadowed: 2, false_shadow: 1, false_light: 1, wrong: 2, undecided: 5 });
+        assert_eq!(
+            counts,
+            TesterCounts { shadowed: 2, false_shadow: 1, false_light: 1, wrong: 2, undecided: 5 }
+        );
     }
 }
