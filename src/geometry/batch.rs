@@ -3,7 +3,7 @@
 //! The same operations in the same order as the scalar filter, written so that the compiler can use the
 //! widest registers it is allowed to; nothing is fused, so every instruction set gives the same bits.
 
-use super::light_triangle::{LightPoint, LightTriangle};
+use super::light_triangle::{Filtered, LightPoint, LightTriangle};
 
 /// Points of one batch.
 pub const LANES: usize = 16;
@@ -119,33 +119,52 @@ fn scan_avx512(batch: &PointBatch, triangles: &[LightTriangle], start: usize, li
 #[inline(always)]
 fn scan(batch: &PointBatch, triangles: &[LightTriangle], start: usize, live: u16) -> Option<Stop> {
     for (index, t) in triangles.iter().enumerate().skip(start) {
-        let mut clear = [false; LANES];
-        let mut blocked = [true; LANES];
-        for k in 0..4 {
-            for i in 0..LANES {
-                let value = ((t.x[k] * batch.x[i] + t.y[k] * batch.y[i]) + t.z[k] * batch.z[i]) - t.offset[k];
-                clear[i] |= value < -batch.slack[i];
-                blocked[i] &= value > batch.slack[i];
-            }
-        }
-        let touched = !mask(&clear) & live;
+        let touched = !clear(batch, t) & live;
         if touched != 0 {
-            let blocked = mask(&blocked) & touched;
-            return Some(Stop { index, blocked, undecided: touched & !blocked });
+            return Some(settle(batch, t, index, touched));
         }
     }
     None
 }
 
+/// Lanes of which some plane certainly clears the triangle. A plane that is NaN clears nothing, and the
+/// comparison drops it or, in the last place, leaves the lane touched.
 #[inline(always)]
-fn mask(lanes: &[bool; LANES]) -> u16 {
-    lanes.iter().enumerate().fold(0, |mask, (i, &lane)| mask | u16::from(lane) << i)
+fn clear(batch: &PointBatch, t: &LightTriangle) -> u16 {
+    let plane = |k: usize, i: usize| {
+        ((t.x[k] * batch.x[i] + t.y[k] * batch.y[i]) + t.z[k] * batch.z[i]) - t.offset[k]
+    };
+    let smaller = |a: f32, b: f32| if a < b { a } else { b };
+    let mut least = [0.0; LANES];
+    for i in 0..LANES {
+        least[i] = smaller(smaller(plane(0, i), plane(1, i)), smaller(plane(2, i), plane(3, i)));
+    }
+    let mut mask = 0;
+    for i in 0..LANES {
+        mask |= u16::from(least[i] < -batch.slack[i]) << i;
+    }
+    mask
+}
+
+/// The careful filter, lane by lane.
+#[cold]
+fn settle(batch: &PointBatch, t: &LightTriangle, index: usize, touched: u16) -> Stop {
+    let mut stop = Stop { index, blocked: 0, undecided: 0 };
+    for i in (0..LANES).filter(|i| touched >> i & 1 == 1) {
+        let point = LightPoint { x: batch.x[i], y: batch.y[i], z: batch.z[i], slack: batch.slack[i] };
+        match t.classify(&point) {
+            Filtered::Blocks => stop.blocked |= 1 << i,
+            Filtered::Undecided => stop.undecided |= 1 << i,
+            // A NaN plane kept the lane touched and another plane clears it after all.
+            Filtered::Clear => {}
+        }
+    }
+    stop
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Filtered;
     use glam::Vec3;
     use proptest::prelude::*;
 

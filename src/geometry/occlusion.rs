@@ -17,22 +17,22 @@ pub enum Stage {
 }
 
 /// One light and one point, with the exact point made when it is first needed.
-pub struct PreciseQuery {
+pub struct PreciseQuery<F> {
     light: Vec3,
     rounded: DVec3,
-    position: ExactPosition,
+    position: F,
     homogeneous: OnceCell<HomogeneousPoint>,
 }
 
-impl PreciseQuery {
-    /// `rounded` is `position` with each coordinate correctly rounded.
-    pub fn new(light: Vec3, rounded: DVec3, position: ExactPosition) -> PreciseQuery {
+impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
+    /// `rounded` is what `position` returns with each coordinate correctly rounded.
+    pub fn new(light: Vec3, rounded: DVec3, position: F) -> PreciseQuery<F> {
         PreciseQuery { light, rounded, position, homogeneous: OnceCell::new() }
     }
 
     /// The exact point relative to the light.
     pub fn exact(&self) -> &HomogeneousPoint {
-        self.homogeneous.get_or_init(|| self.position.relative_to(self.light))
+        self.homogeneous.get_or_init(|| (self.position)().relative_to(self.light))
     }
 
     /// Whether the triangle blocks the open segment between point and light (TRUTH, "Occluded").

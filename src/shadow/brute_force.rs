@@ -49,7 +49,7 @@ impl<'a> BruteForce<'a> {
                     continue;
                 }
                 counters.undecided += 1;
-                let query = PreciseQuery::new(self.light, point.position, point.exact(self.scene));
+                let query = PreciseQuery::new(self.light, point.position, || point.exact(self.scene));
                 let (blocks, stage) = query.blocks(self.scene.corners(primitive));
                 counters.exact += u64::from(stage == Stage::Exact);
                 blocked |= u16::from(blocks) << i;

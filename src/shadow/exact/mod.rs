@@ -19,6 +19,7 @@ use glam::Vec3;
 use hierarchy::{Hierarchy, Visit};
 use integer::Meeting;
 use interval::{Box3, Decided, cross, dot, minus};
+use rayon::prelude::*;
 
 /// `exact` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -60,8 +61,8 @@ pub enum Contact {
 pub struct Arbiter<'a> {
     scene: &'a Scene,
     light: Vec3,
-    triangles: Vec<[Vec3; 3]>,
     hierarchy: Hierarchy,
+    planes: Vec<IntervalPlanes>,
     /// Whether the light itself lies on a triangle.
     light_contact: Contact,
 }
@@ -72,8 +73,9 @@ impl<'a> Arbiter<'a> {
         let scene = input.scene;
         let triangles: Vec<_> = (0..scene.triangles.len() as u32).map(|t| scene.corners(t)).collect();
         let hierarchy = Hierarchy::new(&triangles);
+        let planes = triangles.par_iter().map(|&corners| IntervalPlanes::new(input.light, corners)).collect();
         let mut arbiter =
-            Arbiter { scene, light: input.light, triangles, hierarchy, light_contact: Contact::Clear };
+            Arbiter { scene, light: input.light, hierarchy, planes, light_contact: Contact::Clear };
         arbiter.light_contact = arbiter.contact_of_light();
         arbiter
     }
@@ -83,7 +85,7 @@ impl<'a> Arbiter<'a> {
         let position = ExactPosition::Bare(self.light);
         let mut contact = Contact::Clear;
         self.hierarchy.walk(self.light, &interval::point(self.light), |t| {
-            let corners = self.triangles[t as usize];
+            let corners = self.scene.corners(t);
             // An eye off the triangle's plane decides whether the light lies on it.
             let eyes = [Vec3::X, Vec3::Y, Vec3::Z]
                 .map(|axis| self.light + axis * self.light.abs().max_element().max(1.0));
@@ -101,18 +103,22 @@ impl<'a> Arbiter<'a> {
         let relative = relative_box(&position, self.light);
         let absolute = absolute_box(&relative, self.light);
         let receiver = match point.source {
-            PointSource::Ray { primitive, .. } => Some(self.scene.corners(primitive)),
+            PointSource::Ray { primitive, .. } => Some(primitive),
             PointSource::Bare => None,
         };
+        let receiver_corners = receiver.map(|primitive| self.scene.corners(primitive));
         let mut passes_through = false;
         let mut boundaries = Vec::new();
         let mut ends_on = false;
         self.hierarchy.walk(self.light, &absolute, |t| {
-            let corners = self.triangles[t as usize];
-            let meeting = match meet_in_intervals(self.light, corners, &relative) {
-                Some(meeting) => meeting,
-                None => integer::meet(self.light, corners, &position),
-            };
+            // The receiver lies in its own plane, where nothing blocks.
+            if receiver == Some(t) {
+                return Visit::Continue;
+            }
+            let corners = self.scene.corners(t);
+            let meeting = self.planes[t as usize]
+                .meet(&relative)
+                .unwrap_or_else(|| integer::meet(self.light, corners, &position));
             match meeting {
                 Meeting::Misses => {}
                 Meeting::Interior => {
@@ -120,7 +126,9 @@ impl<'a> Arbiter<'a> {
                     return Visit::Stop;
                 }
                 Meeting::Boundary(_) => boundaries.push(corners),
-                Meeting::EndsOn => ends_on |= !receiver.is_some_and(|r| integer::is_coplanar(r, corners)),
+                Meeting::EndsOn => {
+                    ends_on |= !receiver_corners.is_some_and(|r| integer::is_coplanar(r, corners))
+                }
             }
             Visit::Continue
         });
@@ -157,40 +165,49 @@ fn absolute_box(relative: &Box3, light: Vec3) -> Box3 {
     [0, 1, 2].map(|i| relative[i] + light[i])
 }
 
-/// Meets a triangle as far as intervals decide; boundaries and ends are left to integers.
-fn meet_in_intervals(light: Vec3, corners: [Vec3; 3], point: &Box3) -> Option<Meeting> {
-    let light = interval::point(light);
-    let corner = corners.map(interval::point);
-    let u = corner.map(|c| minus(&c, &light));
-    let normal = cross(&minus(&corner[1], &corner[0]), &minus(&corner[2], &corner[0]));
-    let volume = dot(&normal, &u[0]).decided();
-    let mut all_inside = true;
-    let (mut above, mut below) = (false, false);
-    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-        match dot(&cross(&u[i], &u[j]), point).decided() {
-            Decided::Above => above = true,
-            Decided::Below => below = true,
-            Decided::Open => all_inside = false,
+/// The planes of a triangle relative to the light, in intervals and oriented away from it.
+#[derive(Debug, Clone)]
+struct IntervalPlanes {
+    /// Through the light and an edge, positive inside; `None` if the triangle's plane holds the light or
+    /// intervals cannot tell, so that integers decide.
+    edges: Option<[Box3; 3]>,
+    normal: Box3,
+    corner: Box3,
+}
+
+impl IntervalPlanes {
+    fn new(light: Vec3, corners: [Vec3; 3]) -> IntervalPlanes {
+        let light = interval::point(light);
+        let corner = corners.map(interval::point);
+        let u = corner.map(|c| minus(&c, &light));
+        let normal = cross(&minus(&corner[1], &corner[0]), &minus(&corner[2], &corner[0]));
+        let edges = [cross(&u[0], &u[1]), cross(&u[1], &u[2]), cross(&u[2], &u[0])];
+        let turn = |v: Box3| v.map(|x| -x);
+        match dot(&normal, &u[0]).decided() {
+            Decided::Above => IntervalPlanes { edges: Some(edges), normal, corner: u[0] },
+            Decided::Below => {
+                IntervalPlanes { edges: Some(edges.map(turn)), normal: turn(normal), corner: u[0] }
+            }
+            Decided::Open => IntervalPlanes { edges: None, normal, corner: u[0] },
         }
     }
-    // Opposite signs miss whatever the orientation is.
-    if above && below {
-        return Some(Meeting::Misses);
-    }
-    let orientation = match volume {
-        Decided::Open => return None,
-        decided => decided,
-    };
-    let outside = if orientation == Decided::Above { below } else { above };
-    if outside {
-        return Some(Meeting::Misses);
-    }
-    let depth = dot(&normal, &minus(point, &u[0])).decided();
-    match depth {
-        Decided::Open => None,
-        side if side != orientation => Some(Meeting::Misses),
-        _ if all_inside => Some(Meeting::Interior),
-        _ => None,
+
+    /// How a point relative to the light meets the triangle, as far as intervals decide; boundaries and
+    /// ends are left to integers.
+    fn meet(&self, point: &Box3) -> Option<Meeting> {
+        let mut inside = true;
+        for edge in self.edges.as_ref()? {
+            match dot(edge, point).decided() {
+                Decided::Below => return Some(Meeting::Misses),
+                Decided::Above => {}
+                Decided::Open => inside = false,
+            }
+        }
+        match dot(&self.normal, &minus(point, &self.corner)).decided() {
+            Decided::Below => Some(Meeting::Misses),
+            Decided::Above if inside => Some(Meeting::Interior),
+            _ => None,
+        }
     }
 }
 
@@ -203,6 +220,6 @@ impl ShadowTester for Arbiter<'_> {
     }
 
     fn bytes(&self) -> usize {
-        self.triangles.len() * size_of::<[Vec3; 3]>() + self.hierarchy.bytes()
+        self.planes.len() * size_of::<IntervalPlanes>() + self.hierarchy.bytes()
     }
 }

@@ -70,7 +70,7 @@ impl LightBuffer<'_> {
     fn validate_presence(&self, caster: u32, corners: [Vec3; 3], point: Vec3) -> Result<(), String> {
         // The centre is rounded and may lie beside a needle; only cells that the triangle meets count.
         let is_corner = corners.contains(&point);
-        let query = PreciseQuery::new(self.light, point.as_dvec3(), ExactPosition::Bare(point));
+        let query = PreciseQuery::new(self.light, point.as_dvec3(), || ExactPosition::Bare(point));
         let resolution = self.statistics.resolution;
         let Some((at, _)) = cube::locate(self.light, point.as_dvec3(), resolution, &query) else {
             return Ok(());

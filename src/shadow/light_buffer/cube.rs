@@ -5,11 +5,11 @@
 //! A direction on a border belongs to every cell that it touches, and any of them may be looked up, since
 //! triangles are entered into every closed cell that they meet (rows 1 and 13 of the notes).
 
-use crate::geometry::Sign;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::footprint::{Frame, Grid};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::position::HomogeneousPoint;
+use crate::geometry::{ExactPosition, Sign};
 use glam::{DVec3, Vec3};
 
 /// A face of the cube: axis 0 to 2, and whether it looks along it or against it.
@@ -108,11 +108,11 @@ fn coordinate_error(position: f64, relative: f64) -> f64 {
 
 /// The cell of a point. `exact` is called only if rounding leaves the cell open; the flag says whether it
 /// was. A point in the light itself is in no cell.
-pub fn locate(
+pub fn locate<F: Fn() -> ExactPosition>(
     light: Vec3,
     position: DVec3,
     resolution: u32,
-    query: &PreciseQuery,
+    query: &PreciseQuery<F>,
 ) -> Option<(Located, bool)> {
     let p = position - light.as_dvec3();
     let face = Face::of(p);
@@ -181,11 +181,10 @@ fn exact_index(x: &Expansion, z: &Expansion, resolution: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ExactPosition;
 
     fn cell(direction: [f32; 3], resolution: u32) -> (usize, u32, u32) {
         let p = Vec3::from(direction);
-        let query = PreciseQuery::new(Vec3::ZERO, p.as_dvec3(), ExactPosition::Bare(p));
+        let query = PreciseQuery::new(Vec3::ZERO, p.as_dvec3(), || ExactPosition::Bare(p));
         let (located, _) = locate(Vec3::ZERO, p.as_dvec3(), resolution, &query).unwrap();
         (located.face.index(), located.column, located.row)
     }
@@ -219,7 +218,7 @@ mod tests {
 
     #[test]
     fn a_point_in_the_light_has_no_cell() {
-        let query = PreciseQuery::new(Vec3::ONE, DVec3::ONE, ExactPosition::Bare(Vec3::ONE));
+        let query = PreciseQuery::new(Vec3::ONE, DVec3::ONE, || ExactPosition::Bare(Vec3::ONE));
         assert_eq!(locate(Vec3::ONE, DVec3::ONE, 8, &query), None);
     }
 }

@@ -19,7 +19,7 @@ use super::{
 use crate::error::{Error, Result};
 use crate::geometry::light_triangle::orientation;
 use crate::geometry::occlusion::{PreciseQuery, Stage};
-use crate::geometry::{Filtered, LightPoint, Sign};
+use crate::geometry::{ExactPosition, Filtered, LightPoint, Sign};
 use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 use cube::Located;
@@ -157,7 +157,7 @@ impl<'a> LightBuffer<'a> {
 
     /// Whether one point is occluded.
     fn is_occluded(&self, point: &SurfacePoint, counters: &mut Counters) -> bool {
-        let query = PreciseQuery::new(self.light, point.position, point.exact(self.scene));
+        let query = PreciseQuery::new(self.light, point.position, || point.exact(self.scene));
         let resolution = self.statistics.resolution;
         let Some((at, exactly)) = cube::locate(self.light, point.position, resolution, &query) else {
             return false;
@@ -174,16 +174,14 @@ impl<'a> LightBuffer<'a> {
         self.is_occluded_by(list, point, &query, at, counters)
     }
 
-    fn is_occluded_by(
+    fn is_occluded_by<F: Fn() -> ExactPosition>(
         &self,
         list: &[Record],
         point: &SurfacePoint,
-        query: &PreciseQuery,
+        query: &PreciseQuery<F>,
         at: Located,
         counters: &mut Counters,
     ) -> bool {
-        let base = point.primitive();
-        let convex = base.and_then(|primitive| self.convex_object(primitive));
         let relative = LightPoint::new(self.light, point.position);
         counters.lists += u64::from(!list.is_empty());
         for record in list {
@@ -192,7 +190,7 @@ impl<'a> LightBuffer<'a> {
                 return false;
             }
             let primitive = self.casters.primitives[record.caster as usize];
-            if base == Some(primitive) || self.is_part_of(primitive, convex) {
+            if point.primitive().is_some_and(|base| self.cannot_shadow(primitive, base)) {
                 continue;
             }
             counters.tests += 1;
@@ -213,18 +211,21 @@ impl<'a> LightBuffer<'a> {
         false
     }
 
-    /// The convex object that a base surface belongs to and that therefore cannot shadow it (row 16): the
-    /// whole object lies on the other side of the surface's plane than the light.
-    fn convex_object(&self, base: PrimitiveIndex) -> Option<u32> {
+    /// Whether a triangle cannot shadow points of a base surface: it is the base surface itself (row 15), or
+    /// both belong to a convex object that lies wholly on the other side of the base surface's plane than
+    /// the light (row 16).
+    fn cannot_shadow(&self, primitive: PrimitiveIndex, base: PrimitiveIndex) -> bool {
+        if primitive == base {
+            return true;
+        }
         let object = self.scene.triangles[base as usize].object;
-        let convexity = self.index.convexity[object as usize].as_ref()?;
+        if self.scene.triangles[primitive as usize].object != object {
+            return false;
+        }
+        let Some(convexity) = &self.index.convexity[object as usize] else { return false };
         let inner = convexity.inner_side[(base - self.scene.objects[object as usize].first) as usize];
         let light = orientation(self.light, self.scene.corners(base));
-        (inner * light != Sign::Positive && light != Sign::Zero).then_some(object)
-    }
-
-    fn is_part_of(&self, primitive: PrimitiveIndex, object: Option<u32>) -> bool {
-        object.is_some_and(|object| self.scene.triangles[primitive as usize].object == object)
+        inner * light != Sign::Positive && light != Sign::Zero
     }
 }
 
@@ -266,6 +267,6 @@ impl ShadowTester for LightBuffer<'_> {
 
 /// The resolution that `auto` takes: lists of a few records, from the number of casters alone.
 fn automatic_resolution(casters: usize) -> u32 {
-    let wanted = 2.0 * (casters as f64).sqrt();
+    let wanted = (casters as f64).sqrt();
     (wanted as u32).next_power_of_two().clamp(32, 1024)
 }
