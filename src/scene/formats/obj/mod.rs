@@ -10,7 +10,7 @@ mod tally;
 
 use self::lines::Lines;
 use self::materials::{Library, NotDrawn};
-use self::tally::Tally;
+use self::tally::{Kind, Tally};
 use super::confined::{self, Denial, Room};
 use super::limits::{MAX_CONCAVE_CORNERS, MAX_MATERIAL_BYTES};
 use super::shading_normals::{self, NO_NORMAL};
@@ -53,9 +53,14 @@ pub(super) fn load(path: &Path) -> Result<Scene> {
     if let Some(why) = refusal {
         return Err(at_line(line, why));
     }
-    let (models, found) = parsed.map_err(|error| match (error, tally.furthest_vertex()) {
-        (tobj::LoadError::FaceVertexOutOfBounds, Some((line, why))) => at_line(line, why),
-        _ => at_line(line, explain(error, &text)),
+    let (models, found) = parsed.map_err(|error| {
+        let furthest = match error {
+            tobj::LoadError::FaceVertexOutOfBounds => tally.furthest(Kind::Vertex),
+            tobj::LoadError::FaceNormalOutOfBounds => tally.furthest(Kind::Normal),
+            _ => None,
+        };
+        let (line, why) = furthest.unwrap_or_else(|| (line, explain(error, &text)));
+        at_line(line, why)
     })?;
     if let Some((line, why)) = tally.out_of_range() {
         return Err(at_line(line, why));
