@@ -112,7 +112,7 @@ fn a_polygon_that_would_take_for_ever() {
     for i in 1..=10_001 {
         text += &format!(" {i}");
     }
-    text_refused(text, &["expected at most 4096 corners"]);
+    text_refused(text, &["bad.obj:10002: expected at most 4096 corners"]);
 }
 
 #[test]

@@ -26,6 +26,15 @@ struct Forward {
     line: usize,
 }
 
+/// What the parser does not tell about a face.
+#[derive(Clone, Copy)]
+pub(super) struct Outline {
+    /// Lines past 2^32 do not fit into a scene file.
+    pub(super) line: u32,
+    /// Whether every corner has a normal.
+    pub(super) has_normals: bool,
+}
+
 /// Counts and findings of one file.
 #[derive(Default)]
 pub(super) struct Tally {
@@ -37,8 +46,8 @@ pub(super) struct Tally {
     corners: usize,
     objects: u64,
     object_is_open: bool,
-    /// For each face of three corners or more: whether every corner has a normal.
-    pub(super) has_normals: Vec<bool>,
+    /// The faces of three corners or more, in the order of the file.
+    pub(super) outlines: Vec<Outline>,
     /// Faces of fewer corners, points and lines.
     pub(super) flat: usize,
     /// Lines of free-form curves and surfaces.
@@ -133,7 +142,7 @@ impl Tally {
             return Ok(Verdict::Skip);
         }
         self.object_is_open = true;
-        self.has_normals.push(all_normals);
+        self.outlines.push(Outline { line: line as u32, has_normals: all_normals });
         Ok(Verdict::Pass)
     }
 
