@@ -1,6 +1,6 @@
 //! Scene files: one module a format, one entry for all.
 //!
-//! Input is hostile. Every loader reads its bytes through [`confined`], checks what a file declares against
+//! Input is hostile. Every loader reads its bytes through `confined`, checks what a file declares against
 //! what it holds before memory is asked for, keeps within [`limits`], and turns whatever it cannot read into
 //! one line with file and place. What is left out without being an error is among the scene's warnings.
 

@@ -40,7 +40,7 @@ pub(super) fn place_all(document: &Document) -> Result<Vec<Placed<'_>>, NodeErro
     let mut placed = Vec::new();
     while let Some((index, parent, depth)) = stack.pop() {
         if depth > MAX_NODE_DEPTH {
-            return Err((index, format!("it has more than {MAX_NODE_DEPTH} ancestors")));
+            return Err((index, format!("it has more than {} ancestors", MAX_NODE_DEPTH - 1)));
         }
         let node = &document.nodes[index];
         let world = parent * local(node).map_err(|why| (index, why))?;

@@ -68,6 +68,9 @@ impl<'a, F: FnMut(&str, usize) -> Verdict> Lines<'a, F> {
     }
 
     fn advance(&mut self) -> io::Result<()> {
+        if self.rest.is_empty() {
+            return Ok(());
+        }
         self.number = self.next_number;
         self.position = 0;
         let mut line = Cow::Borrowed(self.take_line());
@@ -80,9 +83,9 @@ impl<'a, F: FnMut(&str, usize) -> Verdict> Lines<'a, F> {
             joined.push(b' ');
             joined.extend_from_slice(more);
         }
-        if line.is_empty() {
-            self.handed = line;
-            return Ok(());
+        // A last line without its end would make the parser ask for more before it reads this.
+        if !line.ends_with(b"\n") {
+            line.to_mut().push(b'\n');
         }
         // Comments may be in any encoding.
         let verdict = if line.trim_ascii_start().starts_with(b"#") {

@@ -10,7 +10,7 @@ mod tally;
 
 use self::lines::Lines;
 use self::materials::{Library, NotDrawn};
-use self::tally::Tally;
+use self::tally::{Kind, Outline, Tally};
 use super::confined::{self, Denial, Room};
 use super::limits::{MAX_CONCAVE_CORNERS, MAX_MATERIAL_BYTES};
 use super::shading_normals::{self, NO_NORMAL};
@@ -53,9 +53,14 @@ pub(super) fn load(path: &Path) -> Result<Scene> {
     if let Some(why) = refusal {
         return Err(at_line(line, why));
     }
-    let (models, found) = parsed.map_err(|error| match (error, tally.furthest_vertex()) {
-        (tobj::LoadError::FaceVertexOutOfBounds, Some((line, why))) => at_line(line, why),
-        _ => at_line(line, explain(error, &text)),
+    let (models, found) = parsed.map_err(|error| {
+        let furthest = match error {
+            tobj::LoadError::FaceVertexOutOfBounds => tally.furthest(Kind::Vertex),
+            tobj::LoadError::FaceNormalOutOfBounds => tally.furthest(Kind::Normal),
+            _ => None,
+        };
+        let (line, why) = furthest.unwrap_or_else(|| (line, explain(error, &text)));
+        at_line(line, why)
     })?;
     if let Some((line, why)) = tally.out_of_range() {
         return Err(at_line(line, why));
@@ -69,12 +74,12 @@ pub(super) fn load(path: &Path) -> Result<Scene> {
         builder.add_material(materials::convert(&material));
     }
     let mut leftovers = Leftovers::default();
-    let mut has_normals = tally.has_normals.iter().copied();
+    let mut outlines = tally.outlines.iter().copied();
     for model in models.into_iter().filter(|model| !model.mesh.indices.is_empty()) {
         let name = if model.name == UNNAMED { file_stem(path) } else { printable(&model.name) };
         let place = || Place::Element(format!("object `{name}`"));
-        let input = object(name.clone(), &model.mesh, &mut has_normals, &mut leftovers)
-            .map_err(|why| Error::input(path, place(), why))?;
+        let input = object(name.clone(), &model.mesh, &mut outlines, &mut leftovers)
+            .map_err(|(line, why)| at_line(line, why))?;
         builder.add_object(input).map_err(|error| Error::input(path, place(), error.to_string()))?;
     }
     warn(&mut builder, &tally, &leftovers, &libraries.not_drawn, &usage);
@@ -192,9 +197,9 @@ struct Leftovers {
 fn object(
     name: String,
     mesh: &tobj::Mesh,
-    has_normals: &mut impl Iterator<Item = bool>,
+    outlines: &mut impl Iterator<Item = Outline>,
     leftovers: &mut Leftovers,
-) -> std::result::Result<ObjectInput, String> {
+) -> std::result::Result<ObjectInput, (usize, String)> {
     let triples = |flat: &[f32]| -> Vec<Vec3> { flat.chunks_exact(3).map(Vec3::from_slice).collect() };
     let positions = triples(&mesh.positions);
     let mut triangles = Vec::new();
@@ -210,11 +215,12 @@ fn object(
         let range = first..first + arity as usize;
         first = range.end;
         let indices = &mesh.indices[range.clone()];
-        let complete = has_normals.next().unwrap_or(false);
-        let normal_indices = mesh.normal_indices.get(range).filter(|_| complete);
+        let Outline { line, has_normals } =
+            outlines.next().unwrap_or(Outline { line: 0, has_normals: false });
+        let normal_indices = mesh.normal_indices.get(range).filter(|_| has_normals);
         any_normals |= normal_indices.is_some();
         let outline: Vec<Vec3> = indices.iter().map(|&v| positions[v as usize]).collect();
-        let cut = polygon::triangulate(&outline, MAX_CONCAVE_CORNERS)?;
+        let cut = polygon::triangulate(&outline, MAX_CONCAVE_CORNERS).map_err(|why| (line as usize, why))?;
         leftovers.crossed += usize::from(cut.crossed);
         for triangle in cut.triangles {
             triangles.push(triangle.map(|corner| indices[corner]));

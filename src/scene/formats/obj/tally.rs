@@ -8,14 +8,31 @@ use super::lines::Verdict;
 use crate::scene::formats::limits::{MAX_CORNERS, MAX_FACES, MAX_OBJECTS};
 use crate::scene::formats::text::printable;
 
-/// The kinds of element that a corner refers to, in the order of `v/vt/vn`.
+/// A kind of element that corners refer to, in the order of `v/vt/vn`.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Vertex,
+    TextureCoordinate,
+    Normal,
+}
+
+/// The kinds in words.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
 /// A reference to an element that had not been defined yet where it was made.
 #[derive(Clone, Copy)]
-pub(super) struct Forward {
-    pub(super) index: u64,
-    pub(super) line: usize,
+struct Forward {
+    index: u64,
+    line: usize,
+}
+
+/// What the parser does not tell about a face.
+#[derive(Clone, Copy)]
+pub(super) struct Outline {
+    /// Lines past 2^32 do not fit into a scene file.
+    pub(super) line: u32,
+    /// Whether every corner has a normal.
+    pub(super) has_normals: bool,
 }
 
 /// Counts and findings of one file.
@@ -29,8 +46,8 @@ pub(super) struct Tally {
     corners: usize,
     objects: u64,
     object_is_open: bool,
-    /// For each face of three corners or more: whether every corner has a normal.
-    pub(super) has_normals: Vec<bool>,
+    /// The faces of three corners or more, in the order of the file.
+    pub(super) outlines: Vec<Outline>,
     /// Faces of fewer corners, points and lines.
     pub(super) flat: usize,
     /// Lines of free-form curves and surfaces.
@@ -125,7 +142,7 @@ impl Tally {
             return Ok(Verdict::Skip);
         }
         self.object_is_open = true;
-        self.has_normals.push(all_normals);
+        self.outlines.push(Outline { line: line as u32, has_normals: all_normals });
         Ok(Verdict::Pass)
     }
 
@@ -163,17 +180,17 @@ impl Tally {
         Ok(has_normal)
     }
 
-    /// After a parser's complaint about a vertex out of range: the corner that reaches furthest.
-    pub(super) fn furthest_vertex(&self) -> Option<(usize, String)> {
-        self.forward[0]
-            .map(|Forward { index, line }| (line, format!("vertex {index} of {}", self.defined[0])))
+    /// After a parser's complaint about an element out of range: the corner that reaches furthest.
+    pub(super) fn furthest(&self, kind: Kind) -> Option<(usize, String)> {
+        let Forward { index, line } = self.forward[kind as usize]?;
+        Some((line, format!("{} {index} of {}", KINDS[kind as usize], self.defined[kind as usize])))
     }
 
     /// The corner that refers furthest past the end of what the whole file defines, if one does.
     pub(super) fn out_of_range(&self) -> Option<(usize, String)> {
-        (0..KINDS.len()).find_map(|kind| {
-            let Forward { index, line } = self.forward[kind].filter(|f| f.index > self.defined[kind])?;
-            Some((line, format!("{} {index} of {}", KINDS[kind], self.defined[kind])))
+        [Kind::Vertex, Kind::TextureCoordinate, Kind::Normal].into_iter().find_map(|kind| {
+            self.forward[kind as usize].filter(|forward| forward.index > self.defined[kind as usize])?;
+            self.furthest(kind)
         })
     }
 }

@@ -1,0 +1,20 @@
+//! What valid scene files become.
+
+mod demo_scenes;
+mod fixtures;
+mod gltf_files;
+mod obj_files;
+
+use lightbuffer::scene::Scene;
+
+/// The corners of all triangles.
+fn corners(scene: &Scene) -> Vec<[[f32; 3]; 3]> {
+    (0..scene.triangles.len() as u32).map(|t| scene.corners(t).map(|p| p.to_array())).collect()
+}
+
+/// Asserts that one warning holds the words, and returns how many warnings there are.
+fn warned(scene: &Scene, words: &str) -> usize {
+    let found = scene.warnings.iter().filter(|w| w.contains(words)).count();
+    assert_eq!(found, 1, "{words:?} among {:?}", scene.warnings);
+    scene.warnings.len()
+}

@@ -1,0 +1,149 @@
+//! Valid files with bytes flipped, cut off, doubled or replaced: they load, or they are refused in one line.
+
+use crate::assert_one_line;
+use crate::fixtures::{Folder, triangle, triangle_glb};
+use lightbuffer::scene::formats;
+use proptest::prelude::*;
+
+/// One change of a file; places count in 65536ths of its length.
+#[derive(Debug, Clone)]
+enum Change {
+    Flip { place: u16, mask: u8 },
+    Put { place: u16, byte: u8 },
+    Cut { place: u16 },
+    Double { place: u16, length: u8 },
+    Remove { place: u16, length: u8 },
+}
+
+fn change() -> impl Strategy<Value = Change> {
+    // Bytes that mean something in the formats are put more often.
+    let telling = prop::sample::select(b"0123456789-+.eE/\\\"{}[],: \n\tvfnN#\0\x7f\xff".to_vec());
+    prop_oneof![
+        (any::<u16>(), 1u8..).prop_map(|(place, mask)| Change::Flip { place, mask }),
+        (any::<u16>(), telling).prop_map(|(place, byte)| Change::Put { place, byte }),
+        any::<u16>().prop_map(|place| Change::Cut { place }),
+        (any::<u16>(), any::<u8>()).prop_map(|(place, length)| Change::Double { place, length }),
+        (any::<u16>(), any::<u8>()).prop_map(|(place, length)| Change::Remove { place, length }),
+    ]
+}
+
+impl Change {
+    fn apply(&self, file: &mut Vec<u8>) {
+        let at = |place: u16| usize::from(place) * file.len() / 65536;
+        if file.is_empty() {
+            return;
+        }
+        match *self {
+            Change::Flip { place, mask } => {
+                let at = at(place);
+                file[at] ^= mask;
+            }
+            Change::Put { place, byte } => {
+                let at = at(place);
+                file[at] = byte;
+            }
+            Change::Cut { place } => file.truncate(at(place)),
+            Change::Double { place, length } => {
+                let start = at(place);
+                let end = (start + usize::from(length)).min(file.len());
+                let copy = file[start..end].to_vec();
+                file.splice(start..start, copy);
+            }
+            Change::Remove { place, length } => {
+                let start = at(place);
+                file.drain(start..(start + usize::from(length)).min(file.len()));
+            }
+        }
+    }
+}
+
+/// Loads a changed file; the result may be either, but must be clean.
+fn check(name: &str, mut file: Vec<u8>, changes: &[Change], mend: impl Fn(&mut Vec<u8>)) {
+    changes.iter().for_each(|change| change.apply(&mut file));
+    mend(&mut file);
+    let folder = Folder::new();
+    folder.write("paint.mtl", PAINT);
+    let path = folder.write(name, &file);
+    match formats::load(&path) {
+        Ok(scene) => {
+            assert!(
+                (0..scene.triangles.len() as u32).all(|t| scene.corners(t).iter().all(|p| p.is_finite()))
+            );
+            for text in scene.warnings.iter().chain(scene.objects.iter().map(|o| &o.name)) {
+                assert!(!text.chars().any(char::is_control), "{text:?}");
+            }
+        }
+        Err(error) => assert_one_line(&path, &error.to_string()),
+    }
+}
+
+const PAINT: &str =
+    "newmtl red\nKd 1 0.5 0\nKs 1 1 1\nNs 20\nd 0.5\nillum 2\nmap_Kd a.png\nnewmtl blue\nKd 0 0 1\n";
+
+const OBJ: &str = "# remark\nmtllib paint.mtl\no first\nv 0 0 0\nv 1 0 0\nv 1 1 0 1.0\nv 0 1 0\nv 0.5 0.2 0\nvt 0 0\nvn 0 0 1\n\
+    usemtl red\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -5//-1 -4//-1 -1//-1 \\\n -2//1\ng second\nusemtl blue\nf 1 2 3\nl 1 2\n";
+
+/// A document with everything that is read.
+fn document() -> serde_json::Value {
+    let mut document = triangle();
+    document["cameras"] =
+        serde_json::json!([{ "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1 } }]);
+    document["extensions"] =
+        serde_json::json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "range": 9 }] } });
+    let light = serde_json::json!({ "KHR_lights_punctual": { "light": 0 } });
+    let nodes = document["nodes"].as_array_mut().unwrap();
+    nodes[0]["children"] = serde_json::json!([1, 2]);
+    nodes[0]["matrix"] = serde_json::json!([2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1]);
+    nodes.push(serde_json::json!({ "camera": 0, "rotation": [0, 0, 0, 1], "scale": [1, 2, 1] }));
+    nodes.push(serde_json::json!({ "mesh": 0, "extensions": light, "translation": [0, 5, 0] }));
+    document
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
+
+    #[test]
+    fn of_obj(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.obj", OBJ.into(), &changes, |_| ());
+    }
+
+    #[test]
+    fn of_gltf(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.gltf", document().to_string().into(), &changes, |_| ());
+    }
+
+    #[test]
+    fn of_glb(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.glb", triangle_glb(), &changes, |_| ());
+    }
+
+    /// With the length in the header put right, so that more than the header is read.
+    #[test]
+    fn of_glb_of_honest_length(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.glb", triangle_glb(), &changes, |file| {
+            let length = (file.len() as u32).to_le_bytes();
+            if let Some(declared) = file.get_mut(8..12) {
+                declared.copy_from_slice(&length);
+            }
+        });
+    }
+
+    #[test]
+    fn of_material_libraries(changes in prop::collection::vec(change(), 1..6)) {
+        let mut library = PAINT.as_bytes().to_vec();
+        changes.iter().for_each(|change| change.apply(&mut library));
+        let folder = Folder::new();
+        folder.write("other.mtl", &library);
+        let path = folder.write("some.obj", OBJ.replace("paint", "other"));
+        if let Err(error) = formats::load(&path) {
+            assert_one_line(&path, &error.to_string());
+        }
+    }
+
+    #[test]
+    fn of_nothing(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        for name in ["some.obj", "some.gltf", "some.glb"] {
+            check(name, bytes.clone(), &[], |_| ());
+        }
+    }
+}
