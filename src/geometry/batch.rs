@@ -118,44 +118,48 @@ fn scan_avx512(batch: &PointBatch, triangles: &[LightTriangle], start: usize, li
 
 #[inline(always)]
 fn scan(batch: &PointBatch, triangles: &[LightTriangle], start: usize, live: u16) -> Option<Stop> {
+    // Lanes that are not live are clear of everything: no value is at or above infinity.
+    let mut limit = [f32::INFINITY; LANES];
+    for i in (0..LANES).filter(|i| live >> i & 1 == 1) {
+        limit[i] = -batch.slack[i];
+    }
     for (index, t) in triangles.iter().enumerate().skip(start) {
-        let touched = !clear(batch, t) & live;
-        if touched != 0 {
-            return Some(settle(batch, t, index, touched));
+        if touches(batch, &limit, t) {
+            let stop = settle(batch, t, index, live);
+            if stop.blocked | stop.undecided != 0 {
+                return Some(stop);
+            }
         }
     }
     None
 }
 
-/// Lanes of which some plane certainly clears the triangle. A plane that is NaN clears nothing, and the
-/// comparison drops it or, in the last place, leaves the lane touched.
+/// Whether some lane has no plane that certainly clears the triangle. A plane that is NaN clears nothing:
+/// the selection drops it or, in the last place, leaves the lane touched.
 #[inline(always)]
-fn clear(batch: &PointBatch, t: &LightTriangle) -> u16 {
+fn touches(batch: &PointBatch, limit: &[f32; LANES], t: &LightTriangle) -> bool {
     let plane = |k: usize, i: usize| {
         ((t.x[k] * batch.x[i] + t.y[k] * batch.y[i]) + t.z[k] * batch.z[i]) - t.offset[k]
     };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
-    let mut least = [0.0; LANES];
+    let mut touched = false;
     for i in 0..LANES {
-        least[i] = smaller(smaller(plane(0, i), plane(1, i)), smaller(plane(2, i), plane(3, i)));
+        let least = smaller(smaller(plane(0, i), plane(1, i)), smaller(plane(2, i), plane(3, i)));
+        // Not `least >= limit`: NaN must count as touched.
+        touched |= !(least < limit[i]);
     }
-    let mut mask = 0;
-    for i in 0..LANES {
-        mask |= u16::from(least[i] < -batch.slack[i]) << i;
-    }
-    mask
+    touched
 }
 
 /// The careful filter, lane by lane.
 #[cold]
-fn settle(batch: &PointBatch, t: &LightTriangle, index: usize, touched: u16) -> Stop {
+fn settle(batch: &PointBatch, t: &LightTriangle, index: usize, live: u16) -> Stop {
     let mut stop = Stop { index, blocked: 0, undecided: 0 };
-    for i in (0..LANES).filter(|i| touched >> i & 1 == 1) {
+    for i in (0..LANES).filter(|i| live >> i & 1 == 1) {
         let point = LightPoint { x: batch.x[i], y: batch.y[i], z: batch.z[i], slack: batch.slack[i] };
         match t.classify(&point) {
             Filtered::Blocks => stop.blocked |= 1 << i,
             Filtered::Undecided => stop.undecided |= 1 << i,
-            // A NaN plane kept the lane touched and another plane clears it after all.
             Filtered::Clear => {}
         }
     }
