@@ -54,23 +54,37 @@ impl Embree {
         Ok(Embree { scene, light: input.light, epsilon: input.embree.epsilon })
     }
 
-    /// The ray that Embree is given for a point: not normalised, so that 1 is the light.
-    pub fn ray(&self, point: &SurfacePoint) -> ShadowRay {
+    /// The ray that Embree is given for a point: not normalised, so that 1 is the light. `None` for a point
+    /// whose rounding is the light itself, which no ray can ask for.
+    pub fn ray(&self, point: &SurfacePoint) -> Option<ShadowRay> {
         let origin = point.position.as_vec3();
-        ShadowRay {
+        let direction = self.light - origin;
+        (direction != Vec3::ZERO && direction.is_finite()).then(|| ShadowRay {
             origin: origin.to_array(),
             t_near: self.epsilon,
-            direction: (self.light - origin).to_array(),
+            direction: direction.to_array(),
             t_far: 1.0 - self.epsilon,
-            excluded: point.primitive().unwrap_or(u32::MAX),
-        }
+            excluded: point.primitive().unwrap_or(ShadowRay::NO_TRIANGLE),
+        })
     }
 }
 
 impl ShadowTester for Embree {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        let rays: Vec<ShadowRay> = points.iter().map(|point| self.ray(point)).collect();
-        self.scene.occluded(&rays, PacketWidth::Sixteen, Coherence::Coherent, answers)?;
+        let rays: Vec<Option<ShadowRay>> = points.iter().map(|point| self.ray(point)).collect();
+        if rays.iter().all(Option::is_some) {
+            let rays: Vec<ShadowRay> = rays.into_iter().flatten().collect();
+            self.scene.occluded(&rays, PacketWidth::Sixteen, Coherence::Coherent, answers)?;
+        } else {
+            answers.fill(false);
+            let asked: Vec<usize> = (0..rays.len()).filter(|&i| rays[i].is_some()).collect();
+            let rays: Vec<ShadowRay> = rays.into_iter().flatten().collect();
+            let mut found = vec![false; rays.len()];
+            self.scene.occluded(&rays, PacketWidth::Sixteen, Coherence::Coherent, &mut found)?;
+            for (i, occluded) in asked.into_iter().zip(found) {
+                answers[i] = occluded;
+            }
+        }
         Ok(Counters::default())
     }
 
