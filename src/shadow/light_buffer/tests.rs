@@ -239,3 +239,13 @@ fn integers_of_the_test_do_not_overflow() {
     let bound = IBig::from(8).pow(3) * IBig::from(16).pow(2) * IBig::from(64);
     assert!(bound < IBig::from(i64::MAX));
 }
+
+#[test]
+fn depths_bound_the_triangle_from_both_sides() {
+    for value in [0.1f64, 1.0 / 3.0, 1.0 + 1e-9, 1.0 - 1e-9, 1e-40, 0.0, 3.4e38] {
+        let (low, high) = (build::round_down(value), build::round_up(value));
+        assert!(f64::from(low) <= value && value <= f64::from(high), "{value}");
+        assert!(high <= low.next_up(), "{value}");
+    }
+    assert_eq!(build::round_up(f64::INFINITY), f32::INFINITY);
+}
