@@ -9,6 +9,8 @@ cd "$(dirname "$0")/.."
 root=$PWD
 copy=$root/target/planted
 export CARGO_TARGET_DIR=$root/target/planted-build
+# What fails is enough; making it smaller takes most of the time.
+export PROPTEST_MAX_SHRINK_ITERS=0
 only=${1:-}
 survived=0
 planted=0
