@@ -89,7 +89,7 @@ plant depth-not-rounded-down $buffer/build.rs \
 
 plant filter-without-slack src/geometry/light_triangle.rs \
     'values.iter().any(|&v| v < -p.slack)' 'values.iter().any(|&v| v < 0.0)' \
-    every_exact_tester_is_right_in_every_case_at_every_resolution
+    no_filter_contradicts_exact_arithmetic
 
 plant closed-triangle-opened src/geometry/occlusion.rs \
     '.sign() == Sign::Negative {

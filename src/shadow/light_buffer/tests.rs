@@ -184,8 +184,18 @@ fn a_convex_solid_of_many_triangles_darkens_a_cell_that_none_of_them_covers() {
 
 #[test]
 fn the_base_surface_is_not_tested() {
-    let scene = scene(&[[[-4, -4, 3], [4, -4, 3], [0, 4, 3]]]);
+    // One object of two triangles; the second crosses the plane of the first, far aside, so that the object
+    // is not convex and no other rule leaves its triangles out.
+    let corners = [[-4, -4, 3], [4, -4, 3], [0, 4, 3], [90, 0, 1], [90, 1, 5], [91, 0, 4]];
+    let positions = corners.map(|p: [i8; 3]| Vec3::from(p.map(f32::from))).to_vec();
+    let mut builder = SceneBuilder::new("two");
+    let triangles = vec![[0, 1, 2], [3, 4, 5]];
+    builder
+        .add_object(ObjectInput { name: "two".into(), material: 0, positions, triangles, normals: None })
+        .unwrap();
+    let scene = builder.finish();
     let index = SceneIndex::new(&scene);
+    assert_eq!(index.convexity, [None]);
     let buffer = build(&scene, &index, 1);
     let point = SurfacePoint::on_ray(&scene, Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0), 0);
     let mut answer = [true];
