@@ -103,7 +103,7 @@ plant footprint-of-a-ray-too-narrow src/visibility/t_buffer.rs \
 
 plant tie-by-index src/visibility/hit.rs \
     'order.then_with(|| tie_order(scene, new.0, old.0)) == Ordering::Less' 'order == Ordering::Less' \
-    equals_classical_ray_tracing_in_any_object_order
+    coplanar_faces_are_drawn_the_same_in_any_object_order
 
 [ "$planted" -gt 0 ] || { echo "no planted bug is called $only"; exit 2; }
 rm -rf "$copy"
