@@ -1,0 +1,75 @@
+//! Wrong answers of the past, each with the input that showed it.
+
+use glam::Vec3;
+use lightbuffer::geometry::batch::InstructionSet;
+use lightbuffer::scene::{ObjectInput, Scene, SceneBuilder};
+use lightbuffer::shadow::brute_force::BruteForce;
+use lightbuffer::shadow::exact::Occlusion;
+use lightbuffer::shadow::exact::plain::PlainTest;
+use lightbuffer::shadow::light_buffer::LightBuffer;
+use lightbuffer::shadow::{
+    BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, ShadowTester, exact,
+};
+use lightbuffer::visibility::SurfacePoint;
+
+fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
+    let mut builder = SceneBuilder::new("regression");
+    for triangles in objects {
+        let input = ObjectInput {
+            name: "object".into(),
+            material: 0,
+            positions: triangles.iter().flatten().copied().collect(),
+            triangles: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+            normals: None,
+        };
+        builder.add_object(input).unwrap();
+    }
+    builder.finish()
+}
+
+/// Every tester says what the definition says.
+fn all_agree(scene: &Scene, light: Vec3, points: &[SurfacePoint], receivers: Receivers) {
+    let plain = PlainTest::new(scene, light, points);
+    let truth: Vec<bool> = points.iter().map(|p| plain.decide(p) == Occlusion::Occluded).collect();
+    let index = SceneIndex::new(scene);
+    let embree = EmbreeSettings { epsilon: 0.0, threads: 1 };
+    let input = |resolution| BuildInput { scene, index: &index, light, resolution, receivers, embree };
+    let check = |name: String, tester: &dyn ShadowTester| {
+        let mut answers = vec![false; points.len()];
+        tester.occluded(points, &mut answers).unwrap();
+        assert_eq!(answers, truth, "{name}");
+    };
+    check("exact".into(), &exact::Arbiter::new(&input(Resolution::Auto)));
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        check(format!("brute force, {set:?}"), &BruteForce::new(&input(Resolution::Auto), set));
+    }
+    for cells in [1, 2, 3, 7, 64] {
+        let buffer = LightBuffer::new(&input(Resolution::Cells(cells))).unwrap();
+        buffer.validate().unwrap();
+        check(format!("light buffer, {cells} cells"), &buffer);
+    }
+}
+
+fn both_sides(triangle: [Vec3; 3]) -> [[Vec3; 3]; 2] {
+    let [a, b, c] = triangle;
+    [[a, b, c], [a, c, b]]
+}
+
+/// Two sheets with a gap between them, their outer corners raised by `bend`, in front of a floor.
+fn gap_between_sheets(bend: f32) -> Scene {
+    let left = [Vec3::new(-0.25, -9.0, 1.0), Vec3::new(-0.25, 9.0, 1.0), Vec3::new(-9.0, 0.0, 1.0 + bend)];
+    let right = left.map(|p| Vec3::new(-p.x, p.y, p.z));
+    let sheets = both_sides(left).into_iter().chain(both_sides(right)).collect();
+    let floor = vec![[Vec3::new(-9.0, -9.0, 4.0), Vec3::new(9.0, -9.0, 4.0), Vec3::new(0.0, 9.0, 4.0)]];
+    scene(&[sheets, floor])
+}
+
+#[test]
+fn sheets_modelled_from_both_sides_leave_the_gap_between_them_open() {
+    // Every edge belongs to two triangles and every plane supports the object, yet it is no solid.
+    for bend in [0.0, 0.25] {
+        let scene = gap_between_sheets(bend);
+        let point = SurfacePoint::on_ray(&scene, Vec3::ZERO, Vec3::new(0.0, 0.1, 1.0), 4);
+        all_agree(&scene, Vec3::ZERO, &[point], Receivers::Surfaces);
+    }
+}
