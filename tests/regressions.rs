@@ -73,3 +73,18 @@ fn sheets_modelled_from_both_sides_leave_the_gap_between_them_open() {
         all_agree(&scene, Vec3::ZERO, &[point], Receivers::Surfaces);
     }
 }
+
+#[test]
+fn differences_beyond_the_range_of_f32_are_decided() {
+    // p - light overflows in x alone, so that a float filter sees (inf, finite, finite).
+    let (light, huge) = (Vec3::new(-3e38, 0.0, 0.0), 3e38f32);
+    let triangle =
+        vec![[Vec3::new(0.0, -huge, -huge), Vec3::new(0.0, huge, -huge), Vec3::new(0.0, 1e37, huge)]];
+    let scene = scene(&[triangle]);
+    let steps = [-3e38f32, -2e38, -1e38, -1e37, 0.0, 1e30, 1e37, 1e38, 1.7e38, 2e38, 3e38, 3.4e38];
+    let points: Vec<_> = steps
+        .iter()
+        .flat_map(|&x| steps.iter().flat_map(move |&y| steps.map(|z| SurfacePoint::bare(Vec3::new(x, y, z)))))
+        .collect();
+    all_agree(&scene, light, &points, Receivers::Anywhere);
+}
