@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use lightbuffer::geometry::batch::InstructionSet;
-use lightbuffer::scene::{ObjectInput, Scene, SceneBuilder};
+use lightbuffer::scene::{Camera, ImageSize, ObjectInput, Scene, SceneBuilder};
 use lightbuffer::shadow::brute_force::BruteForce;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
@@ -10,7 +10,7 @@ use lightbuffer::shadow::light_buffer::LightBuffer;
 use lightbuffer::shadow::{
     BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, ShadowTester, exact,
 };
-use lightbuffer::visibility::SurfacePoint;
+use lightbuffer::visibility::{SurfacePoint, classical, t_buffer};
 
 fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
     let mut builder = SceneBuilder::new("regression");
@@ -87,4 +87,18 @@ fn differences_beyond_the_range_of_f32_are_decided() {
         .flat_map(|&x| steps.iter().flat_map(move |&y| steps.map(|z| SurfacePoint::bare(Vec3::new(x, y, z)))))
         .collect();
     all_agree(&scene, light, &points, Receivers::Anywhere);
+}
+
+#[test]
+fn fields_of_view_just_below_a_half_turn_are_seen_alike() {
+    // Directions lose the view's own share to rounding and run in the image plane or behind it.
+    let behind = vec![[Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(-1.0, 0.0, -3.0)]];
+    let scene = scene(&[behind]);
+    let size = ImageSize { width: 31, height: 17 };
+    for below in [1e-2, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12] {
+        let camera = Camera::look_at("c", Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Vec3::Y, 180.0 - below);
+        let filled = t_buffer::first_hits(&scene, &camera, size);
+        let traced = classical::first_hits(&scene, &camera, size);
+        assert_eq!(filled.primitives, traced.primitives, "{below:e} degrees below");
+    }
 }
