@@ -102,3 +102,26 @@ fn fields_of_view_just_below_a_half_turn_are_seen_alike() {
         assert_eq!(filled.primitives, traced.primitives, "{below:e} degrees below");
     }
 }
+
+#[test]
+fn a_solid_that_shares_faces_with_an_earlier_object_does_not_darken_them_from_inside() {
+    // The shared faces are cast once, for the cap; what remains of the solid ends before the cap's peak.
+    let ring = |half: f32, z: f32| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x * half, y * half, z))
+    };
+    let (inner, outer, bottom) = (ring(1.0, 1.6), ring(3.0, 0.5), ring(3.0, -3.0));
+    let peak = Vec3::new(0.0, 0.0, 2.0);
+    let cap: Vec<_> = (0..4).map(|i| [peak, inner[i], inner[(i + 1) % 4]]).collect();
+    let band = |a: [Vec3; 4], b: [Vec3; 4], i: usize| {
+        let j = (i + 1) % 4;
+        [[a[i], b[i], b[j]], [a[i], b[j], a[j]]]
+    };
+    let mut solid = cap.clone();
+    solid.extend((0..4).flat_map(|i| band(inner, outer, i)));
+    solid.extend((0..4).flat_map(|i| band(outer, bottom, i)));
+    solid.extend([[bottom[0], bottom[1], bottom[2]], [bottom[0], bottom[2], bottom[3]]]);
+    let scene = scene(&[cap, solid]);
+    let up = Vec3::new(0.01, -0.02, 1.0);
+    let points = [0, 4].map(|cap| SurfacePoint::on_ray(&scene, Vec3::ZERO, up, cap));
+    all_agree(&scene, Vec3::new(0.1, 0.03, 0.0), &points, Receivers::Surfaces);
+}

@@ -3,7 +3,7 @@
 //! The directions that pass through a convex solid form a convex cone. If the four corners of a cell lie
 //! strictly inside its projection, so does the whole cell, and every direction of the cell enters the solid
 //! through a triangle that faces the light strictly: whatever is deeper than all of the solid's triangles in
-//! the cell is dark.
+//! the cell is dark. (With the light inside it leaves the solid through one.)
 
 use super::build::round_up;
 use super::cell::{Candidate, Cover};
@@ -11,20 +11,26 @@ use crate::geometry::convexity::Surface;
 use crate::geometry::footprint::{Footprint, Grid};
 use crate::shadow::{BuildInput, Casters};
 
-/// Which casters belong to closed convex objects.
+/// Which casters belong to closed convex objects that are cast whole.
 pub(super) struct ConvexObjects {
     /// Object of each caster, if it is one; empty if the scene has no such object.
     objects: Vec<Option<u32>>,
 }
 
 impl ConvexObjects {
+    /// An object counts only if all of its triangles are cast for it: a face that was merged with another
+    /// object's would be missing from its depth, and from inside nothing else of it need be as deep.
     pub fn new(input: &BuildInput, casters: &Casters) -> ConvexObjects {
-        let closed = |object: u32| {
+        let scene = input.scene;
+        let object = |&primitive: &u32| scene.triangles[primitive as usize].object;
+        let mut cast = vec![0; scene.objects.len()];
+        input.index.casting.iter().map(object).for_each(|o| cast[o as usize] += 1);
+        let whole = |object: u32| {
             let convexity = &input.index.convexity[object as usize];
             convexity.as_ref().is_some_and(|c| c.surface == Surface::Closed)
+                && cast[object as usize] == scene.objects[object as usize].count
         };
-        let object = |&primitive: &u32| input.scene.triangles[primitive as usize].object;
-        let objects: Vec<_> = casters.primitives.iter().map(object).map(|o| closed(o).then_some(o)).collect();
+        let objects: Vec<_> = casters.primitives.iter().map(object).map(|o| whole(o).then_some(o)).collect();
         let any = objects.iter().any(Option::is_some);
         ConvexObjects { objects: if any { objects } else { Vec::new() } }
     }
