@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use lightbuffer::geometry::batch::InstructionSet;
-use lightbuffer::scene::{Camera, ImageSize, ObjectInput, Scene, SceneBuilder};
+use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, frame};
 use lightbuffer::shadow::brute_force::BruteForce;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
@@ -124,4 +124,19 @@ fn a_solid_that_shares_faces_with_an_earlier_object_does_not_darken_them_from_in
     let up = Vec3::new(0.01, -0.02, 1.0);
     let points = [0, 4].map(|cap| SurfacePoint::on_ray(&scene, Vec3::ZERO, up, cap));
     all_agree(&scene, Vec3::new(0.1, 0.03, 0.0), &points, Receivers::Surfaces);
+}
+
+#[test]
+fn scenes_of_any_size_are_framed_or_refused() {
+    let triangle = |size: f32| scene(&[vec![[Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * size)]]);
+    for size in [1e-36, 1e-25, 1e-20, 1.0, 1e17] {
+        let mut scene = triangle(size);
+        frame(&mut scene, Framing::WithFloor).unwrap();
+        let image = ImageSize { width: 16, height: 16 };
+        let seen = t_buffer::first_hits(&scene, &scene.cameras[0], image).primitives;
+        assert!(seen.contains(&Some(0)), "{size:e}");
+    }
+    for size in [1e20, 1e38] {
+        assert!(frame(&mut triangle(size), Framing::WithFloor).is_err(), "{size:e}");
+    }
 }
