@@ -13,6 +13,10 @@ pub enum Framing {
     WithoutFloor,
 }
 
+/// The largest radius of a scene that is framed: the light's strength, some seventy times its square, must be
+/// an f32.
+const LARGEST_RADIUS: f32 = 1e18;
+
 /// Half the edge of the floor, in radii of the scene.
 const FLOOR_RADII: f32 = 6.0;
 
@@ -23,12 +27,18 @@ const FLOOR_RADII: f32 = 6.0;
 /// objects stay.
 ///
 /// # Errors
-/// [`Error::Usage`] if the scene has no triangle.
+/// [`Error::Usage`] if the scene has no triangle, or is too large for a camera and a light around it.
 pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
     let (low, high) =
         scene.bounds().ok_or_else(|| Error::Usage(format!("{}: the scene has no triangles", scene.name)))?;
     let centre = (low * 0.5) + (high * 0.5);
-    let radius = ((high - low).length() * 0.5).max(f32::MIN_POSITIVE);
+    let radius = (high * 0.5 - low * 0.5).length().max(f32::MIN_POSITIVE);
+    if radius > LARGEST_RADIUS && (scene.cameras.is_empty() || scene.lights.is_empty()) {
+        let name = &scene.name;
+        return Err(Error::Usage(format!(
+            "{name}: too large for a camera and a light to be added around it"
+        )));
+    }
     let mut added = Vec::new();
     if scene.cameras.is_empty() {
         let origin = centre + radius * Vec3::new(0.9, 0.85, 2.7);
