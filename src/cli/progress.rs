@@ -74,10 +74,10 @@ impl Progress for Bars {
 
     fn advance(&self, queries: u64) {
         // Taking the lock for single queries would cost more than answering them.
-        if let Ok(guard) = self.bar.try_lock() {
-            if let Some(bar) = guard.as_ref() {
-                bar.inc(queries);
-            }
+        if let Ok(guard) = self.bar.try_lock()
+            && let Some(bar) = guard.as_ref()
+        {
+            bar.inc(queries);
         }
     }
 }

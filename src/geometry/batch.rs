@@ -143,10 +143,10 @@ fn touches(batch: &PointBatch, limit: &[f32; LANES], t: &LightTriangle) -> bool 
     };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
     let mut touched = false;
-    for i in 0..LANES {
+    for (i, limit) in limit.iter().enumerate() {
         let least = smaller(smaller(plane(0, i), plane(1, i)), smaller(plane(2, i), plane(3, i)));
-        // Not `least >= limit`: NaN must count as touched.
-        touched |= !(least < limit[i]);
+        let clear = least < *limit;
+        touched |= !clear;
     }
     touched
 }

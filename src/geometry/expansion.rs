@@ -110,9 +110,15 @@ impl Neg for &Expansion {
 impl Add for &Expansion {
     type Output = Expansion;
 
+    fn add(self, other: &Expansion) -> Expansion {
+        self.plus(other)
+    }
+}
+
+impl Expansion {
     /// Components are added one by one (Shewchuk's GROW-EXPANSION), which holds for any non-overlapping
     /// expansions.
-    fn add(self, other: &Expansion) -> Expansion {
+    fn plus(&self, other: &Expansion) -> Expansion {
         let mut sum = self.0.clone();
         for &component in &other.0 {
             let mut carry = component;
@@ -147,7 +153,8 @@ impl Mul for &Expansion {
 
     fn mul(self, other: &Expansion) -> Expansion {
         let (few, many) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
-        few.0.iter().fold(Expansion::zero(), |sum, &c| &sum + &many.scale(c))
+        let partial_products = few.0.iter().map(|&c| many.scale(c));
+        partial_products.fold(Expansion::zero(), |sum, product| sum.plus(&product))
     }
 }
 

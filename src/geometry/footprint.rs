@@ -265,5 +265,5 @@ fn box_range(grid: &Grid, axis: usize, range: [f64; 2]) -> Option<[u32; 2]> {
     let margin = 1e-9 * (1.0 + f64::from(grid.count[axis]));
     let first = (a.min(b) - half - margin).ceil().max(0.0);
     let last = (a.max(b) + half + margin).floor().min(f64::from(grid.count[axis] - 1));
-    (first <= last).then(|| [first as u32, last as u32])
+    (first <= last).then_some([first as u32, last as u32])
 }

@@ -90,3 +90,51 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         expansion::dot(&normal, &beyond).sign() == Sign::Positive
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Filtered, LightPoint, LightTriangle};
+    use proptest::prelude::*;
+
+    fn coordinates() -> impl Strategy<Value = Vec3> {
+        prop::array::uniform3(-1.0f32..1.0).prop_map(Vec3::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+        /// Points behind an edge of the triangle, as seen from the light, are as near to undecidable as f32
+        /// positions come; far from the origin the coordinates of everything carry few digits.
+        #[test]
+        fn no_filter_contradicts_exact_arithmetic(
+            light in coordinates(),
+            corners in prop::array::uniform3(coordinates()),
+            along in 0.0f32..1.0,
+            depth in 0.9f32..1.6,
+            offset in prop::sample::select(vec![0.0f32, 100.0, 1e5]),
+            scale in prop::sample::select(vec![1.0f32, 1e-20, 1e15]),
+        ) {
+            let place = |p: Vec3| (p + Vec3::splat(offset)) * scale;
+            let corners = corners.map(place);
+            let light = place(light);
+            let on_edge = corners[0] + along * (corners[1] - corners[0]);
+            let point = light + depth * (on_edge - light);
+            let query = PreciseQuery::new(light, point.as_dvec3(), || ExactPosition::Bare(point));
+            let oriented = match orientation(light, corners) {
+                Sign::Zero => return Ok(()),
+                Sign::Positive => corners,
+                Sign::Negative => [corners[0], corners[2], corners[1]],
+            };
+            let exact = query.blocks_exactly(oriented);
+            if let Some(answer) = query.blocks_in_f64(oriented) {
+                prop_assert_eq!(answer, exact);
+            }
+            let record = LightTriangle::new(light, corners).expect("a light off the plane");
+            match record.classify(&LightPoint::new(light, point.as_dvec3())) {
+                Filtered::Blocks => prop_assert!(exact),
+                Filtered::Clear => prop_assert!(!exact),
+                Filtered::Undecided => {}
+            }
+        }
+    }
+}

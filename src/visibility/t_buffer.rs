@@ -155,4 +155,21 @@ mod tests {
             prop_assert_eq!(corners(&forward, &filled), corners(&backward, &reversed));
         }
     }
+
+    #[test]
+    fn coplanar_faces_are_drawn_the_same_in_any_object_order() {
+        // Overlapping in one plane: every ray that meets both meets them at the same t.
+        let low = [Vec3::new(-2.0, 0.0, -2.0), Vec3::new(2.0, 0.0, -2.0), Vec3::new(0.0, 0.0, 2.0)];
+        let high = [Vec3::new(-2.0, 0.0, 2.0), Vec3::new(2.0, 0.0, 2.0), Vec3::new(0.0, 0.0, -2.0)];
+        let camera = Camera::look_at("c", Vec3::new(0.3, 3.0, 0.7), Vec3::ZERO, Vec3::Z, 70.0);
+        let size = ImageSize { width: 32, height: 32 };
+        let corners = |triangles: &[[Vec3; 3]]| -> Vec<_> {
+            let scene = scene(triangles);
+            let hits = first_hits(&scene, &camera, size).primitives;
+            hits.into_iter().map(|hit| hit.map(|p| scene.corners(p))).collect()
+        };
+        let drawn = corners(&[low, high]);
+        assert_eq!(drawn, corners(&[high, low]));
+        assert!(drawn.contains(&Some(low)) && drawn.contains(&Some(high)) && drawn.contains(&None));
+    }
 }

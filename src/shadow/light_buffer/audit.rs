@@ -1,7 +1,7 @@
 //! Checks a finished buffer against its own definition.
 
 use super::cube;
-use super::{FaceLists, LightBuffer};
+use super::{FaceLists, LightBuffer, Record};
 use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use glam::Vec3;
@@ -53,7 +53,9 @@ impl LightBuffer<'_> {
             if !list.is_sorted_by(|a, b| a.near <= b.near) {
                 return Err(format!("cell {cell}: records out of order"));
             }
-            if list.iter().any(|r| !(r.near >= 0.0) || r.caster as usize >= self.casters.planes.len()) {
+            let casters = self.casters.planes.len();
+            let is_sound = |r: &Record| r.near >= 0.0 && (r.caster as usize) < casters;
+            if !list.iter().all(is_sound) {
                 return Err(format!("cell {cell}: a record without depth or caster"));
             }
             if list.last().is_some_and(|r| r.near > full_occlusion) {
@@ -90,18 +92,5 @@ impl LightBuffer<'_> {
             None if is_corner && !excused => Err(missing()),
             _ => Ok(()),
         }
-    }
-
-    /// Columns and rows of the closed cells of a face that a predicate holds for, against the lists: the
-    /// test suite compares them with exact overlaps.
-    #[cfg(test)]
-    pub(super) fn cells_of(&self, caster: u32, face: cube::Face) -> Vec<[u32; 2]> {
-        let Some(lists) = &self.faces[face.index()] else { return Vec::new() };
-        let [columns, rows] = cube::face_grid(self.statistics.resolution).count;
-        let all = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
-        all.filter(|&[column, row]| {
-            lists.cell(column, row).is_some_and(|cell| lists.list(cell).1.iter().any(|r| r.caster == caster))
-        })
-        .collect()
     }
 }

@@ -2,29 +2,36 @@
 //!
 //! The directions that pass through a convex solid form a convex cone. If the four corners of a cell lie
 //! strictly inside its projection, so does the whole cell, and every direction of the cell enters the solid
-//! through a triangle that faces the light strictly: whatever is deeper than all of the solid's triangles in
-//! the cell is dark.
+//! through a triangle whose outer side the light is strictly on: whatever is deeper than all such triangles
+//! of the solid in the cell is dark.
 
 use super::build::round_up;
 use super::cell::{Candidate, Cover};
+use crate::geometry::Sign;
 use crate::geometry::convexity::Surface;
 use crate::geometry::footprint::{Footprint, Grid};
+use crate::geometry::light_triangle::orientation;
+use crate::scene::PrimitiveIndex;
 use crate::shadow::{BuildInput, Casters};
 
-/// Which casters belong to closed convex objects.
+/// Which casters are the near side of closed convex objects.
 pub(super) struct ConvexObjects {
-    /// Object of each caster, if it is one; empty if the scene has no such object.
+    /// Object of each caster, if it is one and the light lies outside of that triangle; empty if the scene
+    /// has none.
     objects: Vec<Option<u32>>,
 }
 
 impl ConvexObjects {
     pub fn new(input: &BuildInput, casters: &Casters) -> ConvexObjects {
-        let closed = |object: u32| {
-            let convexity = &input.index.convexity[object as usize];
-            convexity.as_ref().is_some_and(|c| c.surface == Surface::Closed)
+        let object_before = |&primitive: &PrimitiveIndex| {
+            let object = input.scene.triangles[primitive as usize].object;
+            let convexity = input.index.convexity[object as usize].as_ref()?;
+            let within = primitive - input.scene.objects[object as usize].first;
+            let light = orientation(input.light, input.scene.corners(primitive));
+            let outside = convexity.inner_side[within as usize] * light == Sign::Negative;
+            (convexity.surface == Surface::Closed && outside).then_some(object)
         };
-        let object = |&primitive: &u32| input.scene.triangles[primitive as usize].object;
-        let objects: Vec<_> = casters.primitives.iter().map(object).map(|o| closed(o).then_some(o)).collect();
+        let objects: Vec<_> = casters.primitives.iter().map(object_before).collect();
         let any = objects.iter().any(Option::is_some);
         ConvexObjects { objects: if any { objects } else { Vec::new() } }
     }

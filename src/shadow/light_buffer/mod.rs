@@ -10,6 +10,8 @@ mod build;
 mod cell;
 mod convex_cover;
 pub mod cube;
+#[cfg(test)]
+mod tests;
 
 pub use audit::Audit;
 

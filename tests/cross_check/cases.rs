@@ -1,0 +1,212 @@
+//! Small scenes that are hard on shadow testers, and the demo scenes small.
+
+use glam::Vec3;
+use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, formats, frame};
+use std::path::Path;
+
+/// A scene, where it is seen from, and its lights.
+#[derive(Debug)]
+pub struct Case {
+    pub name: String,
+    pub scene: Scene,
+    pub camera: Camera,
+    pub size: ImageSize,
+    pub lights: Vec<Vec3>,
+}
+
+/// Builds scenes from boxes, sheets and fans.
+#[derive(Default)]
+struct Parts(Vec<(Vec<Vec3>, Vec<[u32; 3]>)>);
+
+impl Parts {
+    fn mesh(mut self, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Parts {
+        self.0.push((positions, triangles));
+        self
+    }
+
+    /// A square in the plane y = `height`.
+    fn floor(self, half: f32, height: f32) -> Parts {
+        let corner = |x: f32, z: f32| Vec3::new(x * half, height, z * half);
+        let corners = vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
+        self.mesh(corners, vec![[0, 1, 2], [0, 2, 3]])
+    }
+
+    fn cuboid(self, low: [f32; 3], high: [f32; 3]) -> Parts {
+        let corner = |i: usize| {
+            Vec3::from_array([0, 1, 2].map(|axis| if i >> axis & 1 == 1 { high[axis] } else { low[axis] }))
+        };
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        self.mesh((0..8).map(corner).collect(), triangles)
+    }
+
+    /// A square of n x n cells in the plane y = `height`, diagonals alternating.
+    fn grid(self, n: u32, half: f32, height: f32) -> Parts {
+        let at = |i: u32| -half + 2.0 * half * i as f32 / n as f32;
+        let positions = (0..=n).flat_map(|z| (0..=n).map(move |x| Vec3::new(at(x), height, at(z)))).collect();
+        let mut triangles = Vec::new();
+        for (z, x) in (0..n).flat_map(|z| (0..n).map(move |x| (z, x))) {
+            let [a, b, c, d] =
+                [z * (n + 1) + x, z * (n + 1) + x + 1, (z + 1) * (n + 1) + x, (z + 1) * (n + 1) + x + 1];
+            triangles.extend(if (x + z) % 2 == 0 { [[a, b, d], [a, d, c]] } else { [[a, b, c], [b, d, c]] });
+        }
+        self.mesh(positions, triangles)
+    }
+
+    fn scene(self, name: &str, place: impl Fn(Vec3) -> Vec3) -> Scene {
+        let mut builder = SceneBuilder::new(name);
+        for (i, (positions, triangles)) in self.0.into_iter().enumerate() {
+            let positions = positions.into_iter().map(&place).collect();
+            let input =
+                ObjectInput { name: format!("part {i}"), material: 0, positions, triangles, normals: None };
+            builder.add_object(input).unwrap();
+        }
+        builder.finish()
+    }
+}
+
+const SIZE: ImageSize = ImageSize { width: 48, height: 32 };
+
+fn case(name: &str, parts: Parts, eye: [f32; 3], lights: &[[f32; 3]]) -> Case {
+    placed(name, parts, eye, lights, |p| p)
+}
+
+/// A case moved as a whole: vertices, eye and lights.
+fn placed(
+    name: &str,
+    parts: Parts,
+    eye: [f32; 3],
+    lights: &[[f32; 3]],
+    place: impl Fn(Vec3) -> Vec3,
+) -> Case {
+    let (origin, target) = (place(Vec3::from(eye)), place(Vec3::new(0.0, 0.4, 0.0)));
+    Case {
+        name: name.into(),
+        scene: parts.scene(name, &place),
+        camera: Camera::look_at("eye", origin, target, Vec3::Y, 50.0),
+        size: SIZE,
+        lights: lights.iter().map(|&l| place(Vec3::from(l))).collect(),
+    }
+}
+
+fn boxes() -> Parts {
+    Parts::default()
+        .floor(4.0, 0.0)
+        .cuboid([-1.0, 0.0, -1.0], [0.0, 1.0, 0.0])
+        .cuboid([0.5, f32::from_bits(1), -0.5], [1.5, 0.5, 0.5])
+        .cuboid([-0.75, 1.0, -0.75], [-0.25, 1.5, -0.25])
+}
+
+const EYE: [f32; 3] = [2.3, 2.7, 4.1];
+const LIGHT: [f32; 3] = [-2.0, 4.0, 1.5];
+
+/// All cases, in a fixed order.
+pub fn all() -> Vec<Case> {
+    let up = 2f32.powi(40);
+    let mut cases = vec![
+        case("boxes that touch the floor and each other", boxes(), EYE, &[LIGHT, [3.0, 5.0, 1.0]]),
+        case(
+            "a light in the plane of faces",
+            boxes(),
+            EYE,
+            &[[-3.0, 1.0, 2.0], [0.0, 3.0, 3.0], [-1.0, 2.5, -1.0]],
+        ),
+        case(
+            "a light straight above the corner of a cell grid",
+            boxes(),
+            EYE,
+            &[[0.0, 3.0, 0.0], [-0.5, 2.0, -0.5]],
+        ),
+        case(
+            "a light on a vertex, an edge and a face",
+            boxes(),
+            EYE,
+            &[[0.0, 1.0, 0.0], [-0.5, 1.0, 0.0], [-0.9, 1.0, -0.1]],
+        ),
+        case(
+            "a light inside a box with a window",
+            Parts::default()
+                .floor(4.0, 0.0)
+                .cuboid([-3.0, -1.0, -3.0], [3.0, 3.0, 3.0])
+                .cuboid([-0.3, 0.5, -0.3], [0.3, 1.0, 0.3]),
+            [2.0, 1.8, 2.5],
+            &[[0.1, 2.5, 0.2], [1.5, 2.9, -1.5]],
+        ),
+        case(
+            "coplanar sheets, twice, and stacked grids",
+            Parts::default()
+                .grid(6, 3.0, 0.0)
+                .grid(6, 3.0, 0.0)
+                .grid(3, 1.0, 0.75)
+                .grid(4, 0.5, 1.5)
+                .floor(2.0, 0.0),
+            EYE,
+            &[LIGHT, [0.0, 4.0, 0.0]],
+        ),
+        case(
+            "a thousand copies of one box",
+            (0..100)
+                .fold(Parts::default().floor(3.0, 0.0), |p, _| p.cuboid([-0.5, 0.25, -0.5], [0.5, 0.5, 0.5])),
+            EYE,
+            &[LIGHT],
+        ),
+        case(
+            "needles and slivers",
+            Parts::default().floor(3.0, 0.0).mesh(
+                vec![
+                    Vec3::new(-2.0, 1.0, 0.0),
+                    Vec3::new(2.0, 1.0, 1e-7),
+                    Vec3::new(2.0, 1.0, -1e-7),
+                    Vec3::new(0.0, 0.3, 2.0),
+                    Vec3::new(0.0, 1.7, 2.0),
+                ],
+                vec![[0, 1, 2], [0, 2, 3], [1, 3, 4], [2, 4, 3]],
+            ),
+            EYE,
+            &[LIGHT],
+        ),
+        placed("far from the origin", boxes(), EYE, &[LIGHT], |p| {
+            p + Vec3::new(148_376.0, 1234.0, -223_423.0)
+        }),
+        placed("tiny and far away", boxes(), EYE, &[LIGHT], |p| p * 1e-3 + Vec3::splat(1e3)),
+        placed("2^40 times as large", boxes(), EYE, &[LIGHT], |p| p * up),
+        placed("2^40 times as small", boxes(), EYE, &[LIGHT], |p| p / up),
+    ];
+    cases.push(file("blocks.obj"));
+    cases
+}
+
+/// A demo scene, small.
+fn file(name: &str) -> Case {
+    let mut scene = formats::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap();
+    frame(&mut scene, Framing::WithFloor).unwrap();
+    let camera = scene.cameras[0].clone();
+    let lights = scene.lights.iter().map(|light| light.point.position).collect();
+    Case { name: name.into(), scene, camera, size: SIZE, lights }
+}
+
+/// The same case with its objects, triangles and corners in another order.
+pub fn turned(case: &Case) -> Case {
+    let mut builder = SceneBuilder::new(case.name.clone());
+    for object in case.scene.objects.iter().rev() {
+        let triangles: Vec<_> =
+            (object.first..object.first + object.count).rev().map(|t| case.scene.corners(t)).collect();
+        let positions = triangles.iter().flat_map(|&[a, b, c]| [b, c, a]).collect();
+        let indices = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let input = ObjectInput {
+            name: object.name.clone(),
+            material: 0,
+            positions,
+            triangles: indices,
+            normals: None,
+        };
+        builder.add_object(input).unwrap();
+    }
+    Case {
+        name: case.name.clone(),
+        scene: builder.finish(),
+        camera: case.camera.clone(),
+        size: case.size,
+        lights: case.lights.clone(),
+    }
+}

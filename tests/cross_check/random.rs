@@ -1,0 +1,55 @@
+//! Random small scenes on a coarse grid: shared edges, coplanar and crossing faces, slivers, nothing nice.
+
+use crate::cases::Case;
+use crate::runner::{Asked, Setting, ask};
+use glam::Vec3;
+use lightbuffer::scene::{Camera, ImageSize, ObjectInput, SceneBuilder};
+use lightbuffer::shadow::{Basis, REGISTRY, Resolution};
+use proptest::prelude::*;
+
+fn grid_point() -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(-4i8..5).prop_map(|p| Vec3::from(p.map(|x| f32::from(x) * 0.5)))
+}
+
+fn case() -> impl Strategy<Value = Case> {
+    let triangles = prop::collection::vec(prop::array::uniform3(grid_point()), 2..14);
+    let lights = prop::collection::vec(prop_oneof![grid_point(), grid_point().prop_map(|p| p * 1.37)], 1..4);
+    (triangles, lights, grid_point(), 1usize..4).prop_map(|(triangles, lights, eye, objects)| {
+        let mut builder = SceneBuilder::new("random");
+        for part in triangles.chunks(triangles.len().div_ceil(objects)) {
+            let positions = part.iter().flatten().copied().collect();
+            let indices = (0..part.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+            let input = ObjectInput {
+                name: "part".into(),
+                material: 0,
+                positions,
+                triangles: indices,
+                normals: None,
+            };
+            builder.add_object(input).unwrap();
+        }
+        Case {
+            name: "random".into(),
+            scene: builder.finish(),
+            camera: Camera::look_at("eye", eye * 2.1, Vec3::ZERO, Vec3::Y, 60.0),
+            size: ImageSize { width: 24, height: 16 },
+            lights,
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+    #[test]
+    fn all_exact_testers_agree_with_the_definition_on_random_scenes(
+        case in case(),
+        resolution in prop::sample::select(vec![1u32, 2, 3, 8, 33, 256]),
+    ) {
+        let asked = Asked::of(&case);
+        let truth = asked.plain_truth();
+        for entry in REGISTRY.iter().filter(|entry| entry.basis != Basis::Measured) {
+            let answers = ask(entry, &asked, Setting { resolution: Resolution::Cells(resolution), threads: 1 });
+            prop_assert_eq!(&answers, &truth, "{} at R = {}", entry.name, resolution);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Asks testers about a case.
+
+use crate::cases::Case;
+use glam::Vec3;
+use lightbuffer::measure::answer;
+use lightbuffer::shadow::exact::Occlusion;
+use lightbuffer::shadow::exact::plain::PlainTest;
+use lightbuffer::shadow::facing::Sides;
+use lightbuffer::shadow::light_buffer::LightBuffer;
+use lightbuffer::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, TesterEntry};
+use lightbuffer::verdict::Queries;
+use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
+
+/// Checksum of the masks of all cases, the same in every build profile.
+pub const RECORDED_CHECKSUM: u64 = 11_654_821_184_008_717_361;
+
+/// How a tester is built and run.
+#[derive(Clone, Copy)]
+pub struct Setting {
+    pub resolution: Resolution,
+    pub threads: usize,
+}
+
+/// A case with its queries: what its camera sees, light by light.
+pub struct Asked<'a> {
+    case: &'a Case,
+    index: SceneIndex,
+    lights: Vec<(Vec3, Queries)>,
+}
+
+impl<'a> Asked<'a> {
+    pub fn of(case: &'a Case) -> Asked<'a> {
+        let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
+        let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
+        let eye = Sides::of(&case.scene, case.camera.origin);
+        let queries = |&light: &Vec3| (light, Queries::new(&case.scene, &visible, light, &eye));
+        Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
+    }
+
+    fn input(&self, light: Vec3, setting: Setting) -> BuildInput<'_> {
+        BuildInput {
+            scene: &self.case.scene,
+            index: &self.index,
+            light,
+            resolution: setting.resolution,
+            receivers: Receivers::Surfaces,
+            embree: EmbreeSettings { epsilon: 1e-4, threads: setting.threads },
+        }
+    }
+
+    /// The definition: all triangles, all queries, in integers.
+    pub fn plain_truth(&self) -> Vec<bool> {
+        self.lights
+            .iter()
+            .flat_map(|(light, queries)| {
+                let plain = PlainTest::new(&self.case.scene, *light, &queries.points);
+                queries.points.iter().map(|p| plain.decide(p) == Occlusion::Occluded).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    /// Fails with the first query, in bits, that is answered differently.
+    pub fn assert_equal(&self, answers: &[bool], truth: &[bool], who: &str) {
+        assert_eq!(answers.len(), truth.len());
+        let Some(wrong) = answers.iter().zip(truth).position(|(a, t)| a != t) else { return };
+        let count = answers.iter().zip(truth).filter(|(a, t)| a != t).count();
+        let (light, point) = self
+            .lights
+            .iter()
+            .flat_map(|(light, queries)| queries.points.iter().map(move |point| (light, point)))
+            .nth(wrong)
+            .expect("a query");
+        panic!(
+            "{}: {who} wrong in {count} queries, first {point:?} from {light:?}, truth {}",
+            self.case.name, truth[wrong]
+        );
+    }
+
+    /// Answers with the pixel and light they belong to, in an order that no index decides.
+    pub fn by_pixel(&self, answers: &[bool]) -> Vec<(usize, u32, bool)> {
+        let keys =
+            self.lights.iter().enumerate().flat_map(|(l, (_, q))| q.pixels.iter().map(move |&p| (l, p)));
+        keys.zip(answers).map(|((light, pixel), &answer)| (light, pixel, answer)).collect()
+    }
+
+    /// The light buffers' own invariants.
+    pub fn audit(&self, resolution: Resolution) {
+        for (light, _) in &self.lights {
+            let buffer = LightBuffer::new(&self.input(*light, Setting { resolution, threads: 1 })).unwrap();
+            let audit = buffer.validate().unwrap_or_else(|e| panic!("{}: {e}", self.case.name));
+            assert!(audit.cells > 0 && audit.directions > 0);
+        }
+    }
+}
+
+/// A tester's answers to all queries of a case.
+pub fn ask(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<bool> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
+    let one_light = |(light, queries): &(Vec3, Queries)| {
+        let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
+        answer(tester.as_ref(), &queries.points, &|_| {}).unwrap().occluded
+    };
+    pool.install(|| asked.lights.iter().flat_map(one_light).collect())
+}
+
+/// FNV-1a over the answers.
+pub fn checksum(answers: &[bool]) -> u64 {
+    answers.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &answer| {
+        (hash ^ u64::from(answer)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# Plants bugs one at a time in a copy of the sources and demands that the tests named for each of them fail.
+# A suite that stays green on a planted bug proves nothing; this proves that ours bites.
+#
+#   make planted-bugs            all of them, some minutes
+#   tests/planted_bugs.sh NAME   one of them
+set -euo pipefail
+cd "$(dirname "$0")/.."
+root=$PWD
+copy=$root/target/planted
+export CARGO_TARGET_DIR=$root/target/planted-build
+# What fails is enough; making it smaller takes most of the time.
+export PROPTEST_MAX_SHRINK_ITERS=0
+only=${1:-}
+survived=0
+planted=0
+
+# plant NAME FILE SEARCH REPLACEMENT TEST...: the text SEARCH, literally and once in FILE, becomes REPLACEMENT.
+plant() {
+    local name=$1 file=$2 search=$3 replacement=$4
+    shift 4
+    if [ -n "$only" ] && [ "$only" != "$name" ]; then return; fi
+    planted=$((planted + 1))
+    rm -rf "$copy"
+    mkdir -p "$copy"
+    git ls-files -z | xargs -0 cp --parents -t "$copy"
+    SEARCH=$search REPLACEMENT=$replacement perl -0pi -e '
+        my $count = () = /\Q$ENV{SEARCH}\E/g;
+        die "planted bug: $count places to plant it, expected 1\n" unless $count == 1;
+        s/\Q$ENV{SEARCH}\E/$ENV{REPLACEMENT}/' "$copy/$file" || { echo "$name: cannot be planted in $file"; exit 2; }
+    local log
+    log=$(cd "$copy" && cargo test --quiet --no-default-features --no-fail-fast --lib --test cross_check 2>&1) || true
+    if ! grep -q '^test result' <<<"$log"; then
+        echo "$name: no test ran"
+        grep -m 3 '^error' <<<"$log"
+        exit 2
+    fi
+    local failed
+    failed=$(grep -oE '^    [a-z_:]+$' <<<"$log" | sort -u | sed 's/^ *//') || true
+    local missing=()
+    for wanted in "$@"; do
+        grep -qE "(^|::)$wanted\$" <<<"$failed" || missing+=("$wanted")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        echo "$name: caught by $(tr '\n' ' ' <<<"$failed")"
+    else
+        echo "$name: NOT caught by ${missing[*]} (failed: $(tr '\n' ' ' <<<"$failed"))"
+        survived=$((survived + 1))
+    fi
+}
+
+buffer=src/shadow/light_buffer
+
+plant cell-too-few $buffer/build.rs \
+    'entries.extend((first..=first + (right - left))' 'entries.extend((first..first + (right - left))' \
+    every_cell_that_a_triangle_meets_lists_it_or_lies_behind_a_cover \
+    every_exact_tester_is_right_in_every_case_at_every_resolution \
+    all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant cell-bound-shrunk $buffer/cube.rs \
+    'half: [0.5 * cell * (1.0 + 1e-12) + 1e-14; 2]' 'half: [0.5 * cell * (1.0 - 1e-9); 2]' \
+    every_cell_that_a_triangle_meets_lists_it_or_lies_behind_a_cover
+
+plant pruned-one-too-many $buffer/cell.rs \
+    'c.near <= cover_depth' 'c.near < cover_depth' \
+    what_lies_behind_a_cover_is_cut_off_and_what_begins_on_it_stays
+
+plant last-record-dropped $buffer/cell.rs \
+    'candidates.truncate(kept);' 'candidates.truncate(kept.max(2) - 1);' \
+    what_lies_behind_a_cover_is_cut_off_and_what_begins_on_it_stays \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant depth-the-wrong-way $buffer/mod.rs \
+    'f64::from(record.near) >= at.z_high' 'f64::from(record.near) <= at.z_high' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution \
+    all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant full-occlusion-the-wrong-way $buffer/mod.rs \
+    'f64::from(full_occlusion) < at.z_low' 'f64::from(full_occlusion) > at.z_low' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant base-surface-rule-dropped $buffer/mod.rs \
+    'if primitive == base {' 'if false {' \
+    the_base_surface_is_not_tested
+
+plant depth-not-rounded-down $buffer/build.rs \
+    'if f64::from(rounded) > value { rounded.next_down() } else { rounded }' 'rounded.next_up()' \
+    depths_bound_the_triangle_from_both_sides
+
+plant filter-without-slack src/geometry/light_triangle.rs \
+    'values.iter().any(|&v| v < -p.slack)' 'values.iter().any(|&v| v < 0.0)' \
+    no_filter_contradicts_exact_arithmetic
+
+plant closed-triangle-opened src/geometry/occlusion.rs \
+    '.sign() == Sign::Negative {
+                return false;' '.sign() != Sign::Positive {
+                return false;' \
+    all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant footprint-of-a-ray-too-narrow src/visibility/t_buffer.rs \
+    'let half = half * half / 1_048_576.0;' 'let half = -half * half / 1_024.0;' \
+    equals_classical_ray_tracing_in_any_object_order
+
+plant tie-by-index src/visibility/hit.rs \
+    'order.then_with(|| tie_order(scene, new.0, old.0)) == Ordering::Less' 'order == Ordering::Less' \
+    coplanar_faces_are_drawn_the_same_in_any_object_order
+
+[ "$planted" -gt 0 ] || { echo "no planted bug is called $only"; exit 2; }
+rm -rf "$copy"
+echo "$((planted - survived)) passed, $survived failed"
+[ "$survived" -eq 0 ]
