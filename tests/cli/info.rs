@@ -1,6 +1,6 @@
 //! `info`: text for people, JSON for programs.
 
-use crate::{BLOCKS, Scratch, json, lightbuffer};
+use crate::{BLOCKS, Folder, json, lightbuffer};
 
 #[test]
 fn text_tells_what_a_scene_holds() {
@@ -18,8 +18,8 @@ fn text_tells_what_a_scene_holds() {
 
 #[test]
 fn json_holds_the_same_and_goes_where_it_is_told() {
-    let scratch = Scratch::new();
-    let path = scratch.path("facts.json");
+    let folder = Folder::new();
+    let path = folder.path("facts.json");
     let text = lightbuffer(["info", "-q", BLOCKS, "--json", path.to_str().unwrap()]).done().stdout;
     let printed = lightbuffer(["info", "-q", BLOCKS, "--json", "-"]).done().stdout;
     assert_eq!(std::fs::read_to_string(path).unwrap(), printed);

@@ -11,8 +11,9 @@ mod usage;
 mod validate;
 mod view;
 
+use fixtures::Folder;
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// The scene of most tests: 732 triangles without light or camera, so that floor, light and camera are added.
@@ -68,29 +69,6 @@ impl Run {
         assert_eq!((self.code, self.stdout.as_str()), (2, ""), "{}", self.stderr);
         assert!(self.stderr.starts_with("error: ") || self.stderr.starts_with("lightbuffer: "));
         assert!(self.stderr.contains(words), "{words:?} is not in {:?}", self.stderr);
-    }
-}
-
-/// A folder that goes away with the test.
-struct Scratch(tempfile::TempDir);
-
-impl Scratch {
-    fn new() -> Scratch {
-        Scratch(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
-        std::fs::write(self.path(name), bytes).unwrap();
-        self.path(name)
-    }
-
-    /// Names of what is in it, sorted.
-    fn names(&self) -> Vec<String> {
-        names(self.0.path())
     }
 }
 

@@ -1,6 +1,6 @@
 //! What `validate` leaves: the channels of the picture, the maps, and nothing else.
 
-use crate::{BLOCKS, HEIGHT, Scratch, WIDTH, json, names, validate};
+use crate::{BLOCKS, Folder, HEIGHT, WIDTH, json, names, validate};
 use lightbuffer::film::{ImagePlanes, read_exr};
 use std::path::Path;
 use std::process::Command;
@@ -41,8 +41,8 @@ fn picture(folder: &Path) -> ImagePlanes {
 
 #[test]
 fn the_files_are_there_and_nothing_else() {
-    let scratch = Scratch::new();
-    let out = scratch.path("a/new/folder");
+    let folder = Folder::new();
+    let out = folder.path("a/new/folder");
     validate(BLOCKS, &out, &[]).done();
     let maps: &[&str] = if cfg!(feature = "embree") {
         &["key.difference.png", "key.verdict.png"]
@@ -60,9 +60,9 @@ fn the_files_are_there_and_nothing_else() {
 
 #[test]
 fn the_picture_has_every_channel_and_says_what_made_it() {
-    let scratch = Scratch::new();
-    validate(BLOCKS, &scratch.path("out"), &[]).done();
-    let image = picture(&scratch.path("out"));
+    let folder = Folder::new();
+    validate(BLOCKS, &folder.path("out"), &[]).done();
+    let image = picture(&folder.path("out"));
     assert_eq!((image.size().width as usize, image.size().height as usize), (WIDTH, HEIGHT));
     let mut have: Vec<_> = image.channels().iter().map(|c| c.name.clone()).collect();
     let mut want = channels("key");
@@ -85,10 +85,10 @@ fn the_picture_has_every_channel_and_says_what_made_it() {
 
 #[test]
 fn openexrs_own_tool_reads_it() {
-    let scratch = Scratch::new();
-    validate(BLOCKS, &scratch.path("out"), &[]).done();
+    let folder = Folder::new();
+    validate(BLOCKS, &folder.path("out"), &[]).done();
     let tool = Command::new("exrheader")
-        .arg(scratch.path("out/image.exr"))
+        .arg(folder.path("out/image.exr"))
         .output()
         .expect("exrheader of the Debian package openexr: run `make packages`");
     let text = String::from_utf8_lossy(&tool.stdout);
@@ -100,10 +100,10 @@ fn openexrs_own_tool_reads_it() {
 
 #[test]
 fn planes_hold_what_their_names_say() {
-    let scratch = Scratch::new();
+    let folder = Folder::new();
     // Without the floor there is a background, and both kinds of darkness.
-    validate(BLOCKS, &scratch.path("out"), &["--no-floor"]).done();
-    let image = picture(&scratch.path("out"));
+    validate(BLOCKS, &folder.path("out"), &["--no-floor"]).done();
+    let image = picture(&folder.path("out"));
     let [alpha, depth, verdict, truth] =
         ["A", "Z", "shadow.key.verdict", "shadow.key.exact"].map(|name| channel(&image, name));
     let background = alpha.iter().filter(|&&a| a == 0.0).count();
@@ -136,10 +136,10 @@ fn planes_hold_what_their_names_say() {
 
 #[test]
 fn masks_add_up_to_the_document() {
-    let scratch = Scratch::new();
-    let run = validate(BLOCKS, &scratch.path("out"), &["--json", "-"]).done();
+    let folder = Folder::new();
+    let run = validate(BLOCKS, &folder.path("out"), &["--json", "-"]).done();
     let light = &json(&run.stdout)["lights"][0];
-    let image = picture(&scratch.path("out"));
+    let image = picture(&folder.path("out"));
     for entry in lightbuffer::shadow::REGISTRY {
         let mask = channel(&image, &format!("shadow.key.{}", entry.name));
         assert!(mask.iter().all(|&m| m == 0.0 || m == 1.0));
@@ -158,10 +158,10 @@ fn masks_add_up_to_the_document() {
 #[cfg(feature = "embree")]
 #[test]
 fn differences_and_verdicts_follow_from_the_masks() {
-    let scratch = Scratch::new();
+    let folder = Folder::new();
     let options = ["--embree-epsilon", "0.2", "--json", "-"];
-    let report = json(&validate(BLOCKS, &scratch.path("out"), &options).done().stdout);
-    let image = picture(&scratch.path("out"));
+    let report = json(&validate(BLOCKS, &folder.path("out"), &options).done().stdout);
+    let image = picture(&folder.path("out"));
     let [native, embree, truth, difference, verdict] =
         ["light-buffer", "embree", "exact", "difference", "verdict"]
             .map(|name| channel(&image, &format!("shadow.key.{name}")));
@@ -177,8 +177,8 @@ fn differences_and_verdicts_follow_from_the_masks() {
     assert_eq!(report["totals"]["testers"]["embree"]["false_light"], embree_wrong);
     // The other way round: Embree's picture, judged as the tester of --shadow.
     let options = ["--embree-epsilon", "0.2", "--shadow", "embree"];
-    validate(BLOCKS, &scratch.path("other"), &options).done();
-    let other = picture(&scratch.path("other"));
+    validate(BLOCKS, &folder.path("other"), &options).done();
+    let other = picture(&folder.path("other"));
     assert!(channel(&other, "shadow.key.difference").iter().all(|&d| d == 0.0));
     assert_eq!(
         channel(&other, "shadow.key.verdict").iter().filter(|&&v| v % 10.0 == 6.0).count(),
@@ -189,8 +189,8 @@ fn differences_and_verdicts_follow_from_the_masks() {
 
 #[test]
 fn lights_have_channels_and_maps_of_their_own() {
-    let scratch = Scratch::new();
-    let out = scratch.path("out");
+    let folder = Folder::new();
+    let out = folder.path("out");
     validate(BLOCKS, &out, &["--lights", "2", "--testers", "light-buffer"]).done();
     let image = picture(&out);
     assert_ne!(channel(&image, "shadow.light-1.exact"), channel(&image, "shadow.light-2.exact"));

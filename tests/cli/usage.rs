@@ -1,6 +1,6 @@
 //! Help, version and what is refused before any work is done.
 
-use crate::{BLOCKS, SIZE, Scratch, lightbuffer};
+use crate::{BLOCKS, Folder, SIZE, lightbuffer, names};
 
 #[test]
 fn help_and_version_are_results() {
@@ -29,8 +29,8 @@ fn help_explains_exit_codes_channels_and_verdicts() {
 
 #[test]
 fn what_makes_no_sense_is_refused_and_nothing_is_written() {
-    let scratch = Scratch::new();
-    let output = scratch.path("out");
+    let folder = Folder::new();
+    let output = folder.path("out");
     let output = output.to_str().unwrap();
     let run = |options: &[&str]| lightbuffer(["validate", BLOCKS, "-o", output].iter().chain(options));
     run(&["--frobnicate"]).misused("'--frobnicate'");
@@ -57,24 +57,24 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
     lightbuffer(["frobnicate"]).misused("'frobnicate'");
     lightbuffer(["validate", BLOCKS]).misused("--output <DIR>");
     lightbuffer(["validate", "-o", output]).misused("<SCENE>");
-    assert!(scratch.names().is_empty());
+    assert!(names(&folder.path("")).is_empty());
 }
 
 #[test]
 fn a_picture_is_named_exr_because_its_preview_is_named_png() {
-    let scratch = Scratch::new();
+    let folder = Folder::new();
     for name in ["picture.png", "picture", "picture.exr.gz"] {
-        let path = scratch.path(name);
+        let path = folder.path(name);
         lightbuffer(["render", BLOCKS, SIZE[0], SIZE[1], "-o", path.to_str().unwrap()])
             .misused("expected a name that ends in .exr");
     }
-    assert!(scratch.names().is_empty());
+    assert!(names(&folder.path("")).is_empty());
 }
 
 #[test]
 fn errors_of_arguments_with_line_breaks_stay_on_their_line() {
-    let scratch = Scratch::new();
-    let output = scratch.path("out");
+    let folder = Folder::new();
+    let output = folder.path("out");
     let line = lightbuffer(["info", "no\nsuch\u{1b}[31m.obj"]).failed();
     assert!(line.contains(r"no\nsuch\u{1b}[31m.obj: cannot read"), "{line}");
     let arguments = ["validate", "-q", BLOCKS, "--camera", "a\nb", "-o", output.to_str().unwrap()];

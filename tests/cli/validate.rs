@@ -1,6 +1,6 @@
 //! `validate`: the document, the table and the exit code.
 
-use crate::{BLOCKS, SIZE, Scratch, json, lightbuffer, validate};
+use crate::{BLOCKS, Folder, SIZE, json, lightbuffer, validate};
 use serde_json::{Map, Value};
 
 /// Counts and costs of a tester; keys of the contract, in the order that serde_json sorts them.
@@ -36,8 +36,8 @@ fn names() -> Vec<&'static str> {
 
 #[test]
 fn the_document_has_the_keys_that_are_promised() {
-    let scratch = Scratch::new();
-    let run = validate(BLOCKS, &scratch.path("out"), &["--json", "-", "--lights", "2"]).done();
+    let folder = Folder::new();
+    let run = validate(BLOCKS, &folder.path("out"), &["--json", "-", "--lights", "2"]).done();
     let report = json(&run.stdout);
     let embree = cfg!(feature = "embree").then_some("embree");
     let mut expected: Vec<_> =
@@ -72,8 +72,8 @@ fn the_document_has_the_keys_that_are_promised() {
 
 #[test]
 fn its_numbers_agree_with_each_other() {
-    let scratch = Scratch::new();
-    let run = validate(BLOCKS, &scratch.path("out"), &["--json", "-", "--lights", "3"]).done();
+    let folder = Folder::new();
+    let run = validate(BLOCKS, &folder.path("out"), &["--json", "-", "--lights", "3"]).done();
     let report = json(&run.stdout);
     let totals = &report["totals"];
     let mut sums = [0; 8];
@@ -116,8 +116,8 @@ fn its_numbers_agree_with_each_other() {
 
 #[test]
 fn json_on_standard_output_stands_there_alone_and_copies_are_equal() {
-    let scratch = Scratch::new();
-    let (out, copy) = (scratch.path("out"), scratch.path("copy.json"));
+    let folder = Folder::new();
+    let (out, copy) = (folder.path("out"), folder.path("copy.json"));
     let printed = validate(BLOCKS, &out, &["--json", "-"]).done();
     assert_eq!(printed.stdout, std::fs::read_to_string(out.join("validate.json")).unwrap());
     assert!(printed.stdout.starts_with("{\n") && printed.stdout.ends_with("\n}\n"));
@@ -129,8 +129,8 @@ fn json_on_standard_output_stands_there_alone_and_copies_are_equal() {
 
 #[test]
 fn the_table_has_a_row_a_tester_and_a_sum() {
-    let scratch = Scratch::new();
-    let table = validate(BLOCKS, &scratch.path("out"), &["--lights", "2"]).done().stdout;
+    let folder = Folder::new();
+    let table = validate(BLOCKS, &folder.path("out"), &["--lights", "2"]).done().stdout;
     for name in names() {
         assert_eq!(table.lines().filter(|l| l.split_whitespace().next() == Some(name)).count(), 3, "{table}");
     }
@@ -142,27 +142,27 @@ fn the_table_has_a_row_a_tester_and_a_sum() {
 
 #[test]
 fn only_the_testers_that_are_named_are_asked_beside_the_truth_and_the_pictures() {
-    let scratch = Scratch::new();
-    let run = validate(BLOCKS, &scratch.path("out"), &["--testers", "brute-force", "--json", "-"]).done();
+    let folder = Folder::new();
+    let run = validate(BLOCKS, &folder.path("out"), &["--testers", "brute-force", "--json", "-"]).done();
     assert_eq!(keys(&json(&run.stdout)["totals"]["testers"]), ["brute-force", "exact", "light-buffer"]);
     let options = ["--testers", "exact", "--shadow", "exact", "--json", "-"];
-    let run = validate(BLOCKS, &scratch.path("exact"), &options).done();
+    let run = validate(BLOCKS, &folder.path("exact"), &options).done();
     assert_eq!(keys(&json(&run.stdout)["totals"]["testers"]), ["exact"]);
 }
 
 #[test]
 fn the_arbiter_is_checked_against_integers_on_demand() {
-    let scratch = Scratch::new();
+    let folder = Folder::new();
     let options = ["--testers", "exact", "--check-arbiter", "500"];
-    let table = validate(BLOCKS, &scratch.path("out"), &options).done().stdout;
+    let table = validate(BLOCKS, &folder.path("out"), &options).done().stdout;
     assert!(table.contains("arbiter against all triangles in integers: 0 wrong of 500"), "{table}");
 }
 
 #[test]
 fn points_that_all_face_away_are_reported() {
-    let scratch = Scratch::new();
-    let floor = scratch.write("floor.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
-    let (floor, out) = (floor.to_str().unwrap(), scratch.path("out"));
+    let folder = Folder::new();
+    let floor = folder.write("floor.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
+    let (floor, out) = (floor.to_str().unwrap(), folder.path("out"));
     let options = ["validate", floor, SIZE[0], SIZE[1], "--light", "0.2,-5,0.2", "-o", out.to_str().unwrap()];
     let run = lightbuffer(options).done();
     assert!(run.stderr.contains("every visible point faces away from every light"), "{}", run.stderr);
@@ -174,8 +174,8 @@ fn points_that_all_face_away_are_reported() {
 
 #[test]
 fn statistics_say_what_was_built() {
-    let scratch = Scratch::new();
-    let run = validate(BLOCKS, &scratch.path("out"), &["--stats", "--resolution", "17"]).done();
+    let folder = Folder::new();
+    let run = validate(BLOCKS, &folder.path("out"), &["--stats", "--resolution", "17"]).done();
     for words in ["t-buffer: 5,184 rays", "key light-buffer: ", "  resolution: 17\n", "  list items: "] {
         assert!(run.stderr.contains(words), "{words:?} is not in {}", run.stderr);
     }

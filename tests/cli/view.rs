@@ -1,7 +1,7 @@
 //! Options of what is looked at: lights, camera, floor, warnings.
 
 use crate::fixtures::triangle;
-use crate::{BLOCKS, Scratch, json, lightbuffer, validate};
+use crate::{BLOCKS, Folder, json, lightbuffer, validate};
 use serde_json::json;
 
 fn info(arguments: &[&str]) -> serde_json::Value {
@@ -43,24 +43,24 @@ fn a_mesh_without_light_gets_a_floor_unless_told_otherwise() {
 
 #[test]
 fn a_camera_is_chosen_by_name() {
-    let scratch = Scratch::new();
+    let folder = Folder::new();
     let mut document = triangle();
     document["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1 } }]);
     let nodes = document["nodes"].as_array_mut().unwrap();
     nodes.push(json!({ "name": "near", "camera": 0, "translation": [0.3, 0.3, 2] }));
     nodes.push(json!({ "name": "far", "camera": 0, "translation": [0.3, 0.3, 9] }));
     document["scenes"][0]["nodes"] = json!([0, 1, 2]);
-    let scene = scratch.write("scene.gltf", document.to_string());
+    let scene = folder.write("scene.gltf", document.to_string());
     let points = |options: &[&str]| {
         let options: Vec<_> =
             options.iter().chain(&["--testers", "exact", "--no-floor", "--json", "-"]).copied().collect();
-        let run = validate(&scene, &scratch.path("out"), &[&options[..], &["--shadow", "exact"]].concat());
+        let run = validate(&scene, &folder.path("out"), &[&options[..], &["--shadow", "exact"]].concat());
         let light = json(&run.done().stdout)["lights"][0].take();
         light["queries"].as_u64().unwrap() + light["facing_away"].as_u64().unwrap()
     };
     assert_eq!(points(&[]), points(&["--camera", "near"]));
     assert!(points(&["--camera", "near"]) > 10 * points(&["--camera", "far"]));
-    let out = scratch.path("none");
+    let out = folder.path("none");
     let line = validate(&scene, &out, &["--camera", "middle"]).failed();
     assert!(line.ends_with("no camera `middle`; the scene has: near, far"), "{line}");
     assert!(!out.exists());
@@ -68,9 +68,9 @@ fn a_camera_is_chosen_by_name() {
 
 #[test]
 fn warnings_are_said_and_are_errors_when_strict() {
-    let scratch = Scratch::new();
+    let folder = Folder::new();
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n";
-    let scene = scratch.write("flat.obj", text);
+    let scene = folder.write("flat.obj", text);
     let scene = scene.to_str().unwrap();
     let warning = "dropped 1 triangles of zero area";
     let run = lightbuffer(["info", scene]).done();
@@ -78,7 +78,7 @@ fn warnings_are_said_and_are_errors_when_strict() {
     assert_eq!(info(&[scene, "-q"])["warnings"], json!([warning]));
     let line = lightbuffer(["info", scene, "--strict"]).failed();
     assert!(line.ends_with(&format!("flat.obj: {warning} (--strict)")), "{line}");
-    let out = scratch.path("out");
+    let out = folder.path("out");
     validate(scene, &out, &["--strict"]).failed();
     assert!(!out.exists());
 }
