@@ -34,13 +34,14 @@ test: packages
 	$(CARGO) test --release --no-fail-fast
 	$(CARGO) test --lib
 
+# One test after another: they print times, and each of them uses all threads.
 test-scenes: packages
 	@if [ -z "$(SCENES)" ]; then \
 		echo "make test-scenes needs a folder with scenes: make test-scenes SCENES=folder" >&2; exit 2; fi
 	@if [ ! -d "$(SCENES)" ]; then \
 		echo "make test-scenes: there is no folder $(SCENES); say make test-scenes SCENES=folder" >&2; exit 2; fi
 	SCENES="$$(cd "$(SCENES)" && pwd)" \
-		$(CARGO) test --release --features test-scenes --test shared_scenes -- --nocapture
+		$(CARGO) test --release --features test-scenes --test shared_scenes -- --nocapture --test-threads=1
 
 lint: packages
 	$(CARGO) fmt --check

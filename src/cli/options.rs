@@ -46,7 +46,8 @@ pub struct RunOptions {
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Brighten PNG previews by this many stops
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true,
+          value_parser = parse_stops)]
     pub exposure: f32,
     /// Print what was built and what every tester did
     #[arg(long)]
@@ -100,6 +101,13 @@ fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
     }
 }
 
+fn parse_stops(text: &str) -> std::result::Result<f32, String> {
+    match text.parse() {
+        Ok(stops) if (-100.0..=100.0).contains(&stops) => Ok(stops),
+        _ => Err("expected a number of stops from -100 to 100".into()),
+    }
+}
+
 fn parse_epsilon(text: &str) -> std::result::Result<f32, String> {
     match text.parse() {
         Ok(epsilon) if (0.0..0.5).contains(&epsilon) => Ok(epsilon),
@@ -128,10 +136,11 @@ mod tests {
     }
 
     #[test]
-    fn resolutions_and_epsilons_stay_in_range() {
+    fn resolutions_epsilons_and_stops_stay_in_range() {
         assert_eq!(parse_resolution("auto"), Ok(Resolution::Auto));
         assert_eq!(parse_resolution("4096"), Ok(Resolution::Cells(4096)));
         assert!(parse_resolution("0").is_err() && parse_resolution("4097").is_err());
+        assert!(parse_stops("-1.5").is_ok() && parse_stops("nan").is_err() && parse_stops("inf").is_err());
         assert!(parse_epsilon("0").is_ok() && parse_epsilon("0.5").is_err() && parse_epsilon("nan").is_err());
     }
 }

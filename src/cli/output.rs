@@ -3,8 +3,42 @@
 use crate::error::{Error, Result};
 use crate::film::{ImagePlanes, ToneMap, write_atomically, write_png_rgb};
 use serde::Serialize;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
+
+/// Finds out before long work whether a file could be written: its folder must be there, and no folder may
+/// have its name. The name `-` is standard output.
+///
+/// # Errors
+/// What writing would report at the end.
+pub fn expect_writable(path: &Path) -> Result<()> {
+    if path == Path::new("-") {
+        return Ok(());
+    }
+    let refused = |source| Err(Error::io(path, "write", source));
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match folder.metadata() {
+        Err(source) => refused(source),
+        Ok(metadata) if !metadata.is_dir() => refused(ErrorKind::NotADirectory.into()),
+        Ok(_) if path.is_dir() => refused(ErrorKind::IsADirectory.into()),
+        Ok(_) => Ok(()),
+    }
+}
+
+/// Finds out before long work whether a folder is there or could be made: what exists of its path must be
+/// folders.
+///
+/// # Errors
+/// What making it would report at the end.
+pub fn expect_folder(path: &Path) -> Result<()> {
+    let there = path.ancestors().find(|ancestor| ancestor.exists());
+    match there {
+        Some(ancestor) if !ancestor.is_dir() => {
+            Err(Error::io(path, "create the folder", ErrorKind::NotADirectory.into()))
+        }
+        _ => Ok(()),
+    }
+}
 
 /// Creates a folder, or finds it there.
 ///

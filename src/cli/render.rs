@@ -20,7 +20,7 @@ pub struct Args {
     #[command(flatten)]
     view: ViewOptions,
     /// OpenEXR file to write; a PNG preview is written beside it
-    #[arg(short, long, value_name = "OUT.exr")]
+    #[arg(short, long, value_name = "OUT.exr", value_parser = parse_output)]
     output: PathBuf,
     /// Tester of the shadows
     #[arg(long, value_name = "TESTER", default_value = "light-buffer")]
@@ -33,6 +33,15 @@ pub struct Args {
     json: Option<PathBuf>,
     #[command(flatten)]
     run: RunOptions,
+}
+
+/// The preview takes the name with `.png`, which must not be that of the picture itself.
+fn parse_output(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("exr") => Ok(path),
+        _ => Err("expected a name that ends in .exr".into()),
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -62,12 +71,17 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let tester = find(&args.shadow)?;
+    output::expect_writable(&args.output)?;
+    args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, messages)?;
     let seen = view.look(&args.view);
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();
-    let embree =
-        if args.no_verdict { None } else { validate::embree_facts(threads, args.run.embree_epsilon)? };
+    let embree = if args.no_verdict {
+        None
+    } else {
+        validate::embree_facts(threads, args.run.embree_epsilon, messages)?
+    };
     let mut entries = vec![tester];
     if embree.is_some() && tester.name != "embree" {
         entries.push(find("embree")?);

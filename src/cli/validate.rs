@@ -72,6 +72,8 @@ fn choose(names: &[String], shadow: &str) -> Result<Vec<&'static TesterEntry>> {
 }
 
 fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
+    output::expect_folder(&args.output)?;
+    args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, messages)?;
     let seen = view.look(&args.view);
     let index = SceneIndex::new(&view.scene);
@@ -83,7 +85,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         height: args.view.size.height,
         version: env!("CARGO_PKG_VERSION"),
         threads,
-        embree: embree_facts(threads, args.run.embree_epsilon)?,
+        embree: embree_facts(threads, args.run.embree_epsilon, messages)?,
         skipped: Vec::new(),
         lights: Vec::new(),
         totals: Totals::default(),
@@ -117,7 +119,9 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         judged.push((queries, verdict));
     }
     report.totals = Totals::of(&report.lights);
-    if report.totals.queries == 0 {
+    if seen.visible.points.is_empty() {
+        messages.warn("the camera sees no surface: there is nothing to judge");
+    } else if report.totals.queries == 0 {
         messages.warn("every visible point faces away from every light: there is nothing to judge");
     }
     write_all(args, &view, &seen, &names, &judged, &report)?;
@@ -149,14 +153,14 @@ fn fitting<'e>(
 }
 
 #[cfg(feature = "embree")]
-pub fn embree_facts(threads: usize, epsilon: f32) -> Result<Option<EmbreeFacts>> {
+pub fn embree_facts(threads: usize, epsilon: f32, _: Messages) -> Result<Option<EmbreeFacts>> {
     let device = crate::embree::Device::new(threads)?;
     Ok(Some(EmbreeFacts { version: device.version(), isa: device.instruction_set(), epsilon }))
 }
 
 #[cfg(not(feature = "embree"))]
-pub fn embree_facts(_: usize, _: f32) -> Result<Option<EmbreeFacts>> {
-    Messages::Shown.warn("built without the feature `embree`: no oracle and no difference maps");
+pub fn embree_facts(_: usize, _: f32, messages: Messages) -> Result<Option<EmbreeFacts>> {
+    messages.warn("built without the feature `embree`: no oracle and no difference maps");
     Ok(None)
 }
 
@@ -168,9 +172,9 @@ fn write_all(
     judged: &[(Queries, LightVerdict)],
     report: &Validation,
 ) -> Result<()> {
+    let mut planes = picture::shaded(view, seen, &picture::runs_of(judged, &args.shadow)?)?;
     output::folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
-    let mut planes = picture::shaded(view, seen, &picture::runs_of(judged, &args.shadow)?)?;
     for (name, (queries, verdict)) in names.iter().zip(judged) {
         for map in picture::add_light(&mut planes, name, queries, verdict, &args.shadow)? {
             write_false_colour(&file(&format!("{name}.{}.png", map.kind)), &map.colours)?;

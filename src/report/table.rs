@@ -1,7 +1,7 @@
 //! Verdict tables for people.
 
 use super::validation::{TesterReport, Totals, Validation};
-use crate::shadow::REGISTRY;
+use crate::shadow::{Counters, REGISTRY};
 use crate::verdict::TesterRun;
 use crate::visibility::FirstHits;
 use std::fmt::Write;
@@ -63,12 +63,16 @@ fn rows<'a>(text: &mut String, report: &dyn Fn(&str) -> Option<&'a TesterReport>
 }
 
 fn summary(totals: &Totals) -> String {
-    let native =
-        format!("{} of {} native answers wrong", grouped(totals.native_wrong()), grouped(totals.queries));
+    let native = format!(
+        "{} of {} native answers wrong",
+        grouped(totals.native_wrong()),
+        grouped(totals.native_answers())
+    );
     match totals.testers.get("embree") {
         Some(embree) => format!(
-            "{native}, {} of Embree's ({} false shadow, {} false light)\n",
+            "{native}, {} of {} of Embree's ({} false shadow, {} false light)\n",
             grouped(embree.counts.wrong),
+            grouped(totals.queries),
             grouped(embree.counts.false_shadow),
             grouped(embree.counts.false_light)
         ),
@@ -84,6 +88,10 @@ pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a
     for (light, run) in runs {
         let a_query = |count: u64| count as f64 / run.occluded.len().max(1) as f64;
         let c = &run.counters;
+        // The arbiter and Embree do not count.
+        if *c == Counters::default() {
+            continue;
+        }
         let _ = writeln!(
             text,
             "{light} {}: {:.2} tests, {:.2} lists entered, {:.4} full occlusions, {:.5} undecided, \

@@ -82,6 +82,9 @@ pub struct Totals {
     pub testers: BTreeMap<&'static str, TesterReport>,
     /// Who is right where.
     pub verdicts: VerdictCounts,
+    /// Queries that each tester answered: all but those of lights where it was skipped.
+    #[serde(skip)]
+    asked: BTreeMap<&'static str, u64>,
 }
 
 impl LightReport {
@@ -116,11 +119,13 @@ impl Totals {
                     ns_per_query: 0.0,
                     bytes: 0,
                 });
-                let (before, now) = (totals.queries as f64, light.queries as f64);
+                let asked = totals.asked.entry(name).or_default();
+                let (before, now) = (*asked as f64, light.queries as f64);
                 if before + now > 0.0 {
                     sum.ns_per_query =
                         (sum.ns_per_query * before + tester.ns_per_query * now) / (before + now);
                 }
+                *asked += light.queries;
                 sum.counts += tester.counts;
                 sum.build_seconds += tester.build_seconds;
                 sum.bytes += tester.bytes;
@@ -133,7 +138,16 @@ impl Totals {
 
     /// Wrong answers of the testers that claim to be exact.
     pub fn native_wrong(&self) -> u64 {
-        let exact = |name: &str| crate::shadow::find(name).is_ok_and(|entry| entry.basis == Basis::Exact);
-        self.testers.iter().filter(|(name, _)| exact(name)).map(|(_, t)| t.counts.wrong).sum()
+        self.testers.iter().filter(|(name, _)| is_native(name)).map(|(_, t)| t.counts.wrong).sum()
     }
+
+    /// Answers of these testers, right or wrong.
+    pub fn native_answers(&self) -> u64 {
+        self.asked.iter().filter(|(name, _)| is_native(name)).map(|(_, asked)| asked).sum()
+    }
+}
+
+/// Whether a tester claims to be exact and is not the truth itself.
+fn is_native(name: &str) -> bool {
+    crate::shadow::find(name).is_ok_and(|entry| entry.basis == Basis::Exact)
 }

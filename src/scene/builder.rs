@@ -3,6 +3,7 @@
 use super::{Camera, Light, Material, Object, Scene, Triangle};
 use crate::error::{Error, Result};
 use glam::Vec3;
+use std::collections::HashMap;
 
 /// The most vertices or triangles a scene may have: indices are 32 bits, and `object_id` channels hold
 /// them in floats only as far as 2^24 objects go; triangles may be more.
@@ -44,17 +45,20 @@ pub struct ObjectInput {
 /// Collects objects, materials, lights and cameras, and checks them.
 pub struct SceneBuilder {
     scene: Scene,
+    /// Names that lights have, each with the number that its next namesake tries first.
+    light_names: HashMap<String, u32>,
 }
 
 impl SceneBuilder {
     /// An empty scene with one default material (index 0).
     pub fn new(name: impl Into<String>) -> SceneBuilder {
-        SceneBuilder { scene: Scene::empty(name) }
+        SceneBuilder::extend(Scene::empty(name))
     }
 
     /// Continues a scene that is already there.
     pub fn extend(scene: Scene) -> SceneBuilder {
-        SceneBuilder { scene }
+        let light_names = scene.lights.iter().map(|light| (light.name.clone(), 2)).collect();
+        SceneBuilder { scene, light_names }
     }
 
     /// Adds a material and returns its index.
@@ -65,12 +69,16 @@ impl SceneBuilder {
 
     /// Adds a light; a name that is taken gets a number.
     pub fn add_light(&mut self, mut light: Light) {
-        let wanted = light.name.clone();
-        let mut number = 2;
-        while self.scene.lights.iter().any(|other| other.name == light.name) {
-            light.name = format!("{wanted}-{number}");
-            number += 1;
+        if let Some(&first) = self.light_names.get(&light.name) {
+            let wanted = light.name.clone();
+            let mut number = first;
+            while self.light_names.contains_key(&light.name) {
+                light.name = format!("{wanted}-{number}");
+                number += 1;
+            }
+            self.light_names.insert(wanted, number);
         }
+        self.light_names.insert(light.name.clone(), 2);
         self.scene.lights.push(light);
     }
 
@@ -189,6 +197,7 @@ fn is_degenerate(points: [Vec3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::PointLight;
 
     fn object(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> ObjectInput {
         ObjectInput {
@@ -211,6 +220,24 @@ mod tests {
         assert_eq!(scene.triangles.len(), 1);
         assert_eq!(scene.corners(0)[1], Vec3::X);
         assert_eq!(scene.warnings.len(), 2);
+    }
+
+    #[test]
+    fn lights_of_one_name_are_numbered_in_order() {
+        let mut builder = SceneBuilder::new("test");
+        let light = |name: &str| Light {
+            name: name.into(),
+            point: PointLight { position: Vec3::ZERO, intensity: [1.0; 3], range: None },
+        };
+        for name in ["a", "a-2", "a", "a", "b"] {
+            builder.add_light(light(name));
+        }
+        let mut builder = SceneBuilder::extend(builder.into_scene());
+        builder.add_light(light("a"));
+        builder.add_light(light("a-2"));
+        let scene = builder.finish();
+        let names: Vec<_> = scene.lights.iter().map(|l| l.name.as_str()).collect();
+        assert_eq!(names, ["a", "a-2", "a-3", "a-4", "b", "a-5", "a-2-2"]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Text from files on its way to people.
 
+use crate::error::breaks_line;
+
 /// The most characters of a file's own text that a message or a name repeats.
 const MAX_SHOWN: usize = 120;
 
@@ -12,7 +14,7 @@ pub(super) fn printable(text: &str) -> String {
             shown.push_str("...");
             break;
         }
-        if character.is_control() || matches!(character, '\u{2028}' | '\u{2029}') {
+        if breaks_line(character) {
             shown.extend(character.escape_default());
         } else {
             shown.push(character);
