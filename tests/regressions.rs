@@ -140,3 +140,10 @@ fn scenes_of_any_size_are_framed_or_refused() {
         assert!(frame(&mut triangle(size), Framing::WithFloor).is_err(), "{size:e}");
     }
 }
+
+#[test]
+fn audits_reach_triangles_at_the_end_of_the_range() {
+    let far = [Vec3::new(3e38, 0.0, 1e38), Vec3::new(3e38, 1e38, 0.0), Vec3::new(2e38, 3e38, 3e38)];
+    let point = SurfacePoint::bare(Vec3::new(3e38, 3e37, 3e37));
+    all_agree(&scene(&[vec![far]]), Vec3::ZERO, &[point], Receivers::Anywhere);
+}

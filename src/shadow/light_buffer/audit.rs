@@ -31,7 +31,8 @@ impl LightBuffer<'_> {
         }
         for caster in 0..self.casters.primitives.len() as u32 {
             let corners = self.scene.corners(self.casters.primitives[caster as usize]);
-            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            // Divided first, since a sum of three may overflow.
+            let centre = corners[0] / 3.0 + corners[1] / 3.0 + corners[2] / 3.0;
             for point in corners.into_iter().chain([centre]) {
                 self.validate_presence(caster, corners, point)?;
                 audit.directions += 1;
