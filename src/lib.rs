@@ -67,7 +67,7 @@
 //!     receivers: Receivers::Anywhere,
 //!     embree: EmbreeSettings { epsilon: 0.0, threads: 1 },
 //! })?;
-//! let points = [Vec3::ZERO, Vec3::new(5.0, 0.0, 0.0)].map(SurfacePoint::bare);
+//! let points = [Vec3::ZERO, Vec3::new(5.0, 0.0, 0.0)].map(|p| SurfacePoint::bare(p).expect("finite"));
 //! let mut occluded = [false; 2];
 //! tester.occluded(&points, &mut occluded)?;
 //! assert_eq!(occluded, [true, false]);

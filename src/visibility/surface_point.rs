@@ -38,9 +38,10 @@ impl SurfacePoint {
         SurfacePoint { position: exact.rounded(), source: PointSource::Ray { origin, direction, primitive } }
     }
 
-    /// A point on no surface.
-    pub fn bare(position: Vec3) -> SurfacePoint {
-        SurfacePoint { position: position.as_dvec3(), source: PointSource::Bare }
+    /// A point on no surface; `None` unless its coordinates are finite.
+    pub fn bare(position: Vec3) -> Option<SurfacePoint> {
+        let point = SurfacePoint { position: position.as_dvec3(), source: PointSource::Bare };
+        position.is_finite().then_some(point)
     }
 
     /// The exact position.
@@ -87,5 +88,17 @@ impl VisibleSurfaces {
             })
             .unzip();
         VisibleSurfaces { points, pixels }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_in_space_are_finite() {
+        assert!(SurfacePoint::bare(Vec3::splat(f32::MAX)).is_some());
+        assert!(SurfacePoint::bare(Vec3::new(0.0, f32::NAN, 0.0)).is_none());
+        assert!(SurfacePoint::bare(Vec3::new(f32::INFINITY, 0.0, 0.0)).is_none());
     }
 }

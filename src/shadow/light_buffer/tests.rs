@@ -176,7 +176,8 @@ fn a_convex_solid_of_many_triangles_darkens_a_cell_that_none_of_them_covers() {
     assert!(depth < 4.0, "{depth}");
     assert!(list.iter().all(|r| r.near <= depth));
     let mut answers = [false; 2];
-    let points = [Vec3::new(0.05, 0.02, 7.0), Vec3::new(0.05, 0.02, 1.0)].map(SurfacePoint::bare);
+    let points =
+        [Vec3::new(0.05, 0.02, 7.0), Vec3::new(0.05, 0.02, 1.0)].map(|p| SurfacePoint::bare(p).unwrap());
     let counters = buffer.occluded(&points, &mut answers).unwrap();
     assert_eq!(answers, [true, false]);
     assert_eq!(counters.full_occlusions, 1);
@@ -239,7 +240,7 @@ fn points_in_space_need_a_buffer_built_for_them() {
         embree: EmbreeSettings { epsilon: 0.0, threads: 1 },
     };
     let buffer = LightBuffer::new(&input).unwrap();
-    let error = buffer.occluded(&[SurfacePoint::bare(Vec3::Z)], &mut [false]).unwrap_err();
+    let error = buffer.occluded(&[SurfacePoint::bare(Vec3::Z).unwrap()], &mut [false]).unwrap_err();
     assert!(error.to_string().contains("Receivers::Anywhere"));
 }
 
