@@ -1,8 +1,8 @@
 //! Options that commands share, and how their values are written.
 
 use crate::error::{Error, Result};
-use crate::scene::ImageSize;
-use crate::shadow::Resolution;
+use crate::scene::{ImageSize, Scene};
+use crate::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex};
 use clap::Args;
 use glam::Vec3;
 use std::path::PathBuf;
@@ -58,6 +58,18 @@ pub struct RunOptions {
 }
 
 impl RunOptions {
+    /// What testers of one light are built from, for the surfaces that a camera sees.
+    pub fn build_input<'a>(&self, scene: &'a Scene, index: &'a SceneIndex, light: Vec3) -> BuildInput<'a> {
+        BuildInput {
+            scene,
+            index,
+            light,
+            resolution: self.resolution,
+            receivers: Receivers::Surfaces,
+            embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
+        }
+    }
+
     /// The pool that everything parallel runs in.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use crate::film::{unique_safe_names, write_exr};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
-use crate::shadow::{Basis, BuildInput, EmbreeSettings, Receivers, SceneIndex, TesterEntry, find};
+use crate::shadow::{Basis, SceneIndex, TesterEntry, find};
 use crate::verdict::{LightVerdict, Queries, TesterRun, judge, run_tester};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -90,14 +90,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     for light in &view.scene.lights {
         let position = light.point.position;
         let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
-        let input = BuildInput {
-            scene: &view.scene,
-            index: &index,
-            light: position,
-            resolution: args.run.resolution,
-            receivers: Receivers::Surfaces,
-            embree: EmbreeSettings { epsilon: args.run.embree_epsilon, threads },
-        };
+        let input = args.run.build_input(&view.scene, &index, position);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = if args.no_verdict {
             Shadow::Alone(run_tester(tester, &input, &queries, &bars)?)

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
-use crate::shadow::{Basis, BuildInput, EmbreeSettings, REGISTRY, Receivers, SceneIndex, TesterEntry, find};
+use crate::shadow::{Basis, REGISTRY, SceneIndex, TesterEntry, find};
 use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
 use std::path::{Path, PathBuf};
 
@@ -94,14 +94,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     for light in &view.scene.lights {
         let position = light.point.position;
         let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
-        let input = BuildInput {
-            scene: &view.scene,
-            index: &index,
-            light: position,
-            resolution: args.run.resolution,
-            receivers: Receivers::Surfaces,
-            embree: EmbreeSettings { epsilon: args.run.embree_epsilon, threads },
-        };
+        let input = args.run.build_input(&view.scene, &index, position);
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let verdict = judge(&input, &queries, &fitting, &bars)?;

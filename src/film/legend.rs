@@ -1,6 +1,7 @@
 //! The strip under a false-colour map that says what its colours mean and how many pixels have each.
 
 use super::canvas::{Canvas, GLYPH};
+use super::grouped;
 use crate::scene::ImageSize;
 
 const PAPER: [u8; 3] = [18, 18, 22];
@@ -144,19 +145,6 @@ fn shortened(text: &str, room: usize) -> String {
     }
     let kept: String = text.chars().take(room.saturating_sub(2)).collect();
     kept + &".."[..room.min(2)]
-}
-
-/// Digits in groups of three.
-fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 mod atomic;
 mod attribute_order;
 mod canvas;
+mod digits;
 mod exr_reader;
 mod false_colour;
 mod legend;
@@ -19,6 +20,7 @@ mod png;
 mod tone;
 
 pub use atomic::write_atomically;
+pub use digits::grouped;
 pub use exr_reader::read_exr;
 pub use false_colour::{Category, CategoryMap, write_false_colour};
 pub use markers::{Marking, RARE_PIXELS};

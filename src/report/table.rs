@@ -1,6 +1,7 @@
 //! Verdict tables for people.
 
 use super::validation::{TesterReport, Totals, Validation};
+use crate::film::grouped;
 use crate::shadow::{Counters, REGISTRY};
 use crate::verdict::TesterRun;
 use crate::visibility::FirstHits;
@@ -110,37 +111,11 @@ pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a
     text
 }
 
-/// A count with thin groups of three digits.
-pub fn grouped(value: u64) -> String {
-    let digits = value.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
-}
-
 /// Bytes in a unit that reads well.
 pub fn bytes(value: usize) -> String {
     match value {
         0..10_240 => format!("{value} B"),
         10_240..10_485_760 => format!("{} KiB", value / 1024),
         _ => format!("{} MiB", value / 1_048_576),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts_are_grouped_by_three() {
-        assert_eq!(
-            ["0", "999", "1,000", "12,345,678"],
-            [0, 999, 1000, 12_345_678].map(grouped).each_ref().map(|s| s.as_str())
-        );
     }
 }

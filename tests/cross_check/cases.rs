@@ -185,26 +185,27 @@ fn file(name: &str) -> Case {
     Case { name: name.into(), scene, camera, size: SIZE, lights }
 }
 
-/// The same case with its objects, triangles and corners in another order.
-pub fn turned(case: &Case) -> Case {
-    let mut builder = SceneBuilder::new(case.name.clone());
-    for object in case.scene.objects.iter().rev() {
-        let triangles: Vec<_> =
-            (object.first..object.first + object.count).rev().map(|t| case.scene.corners(t)).collect();
-        let positions = triangles.iter().flat_map(|&[a, b, c]| [b, c, a]).collect();
-        let indices = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let input = ObjectInput {
-            name: object.name.clone(),
-            material: 0,
-            positions,
-            triangles: indices,
-            normals: None,
-        };
+/// A scene of objects whose triangles share no vertices by index.
+pub fn soup(name: &str, objects: impl Iterator<Item = Vec<[Vec3; 3]>>) -> Scene {
+    let mut builder = SceneBuilder::new(name);
+    for triangles in objects {
+        let positions = triangles.iter().flatten().copied().collect();
+        let triangles = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let input = ObjectInput { name: "part".into(), material: 0, positions, triangles, normals: None };
         builder.add_object(input).unwrap();
     }
+    builder.finish()
+}
+
+/// The same case with its objects, triangles and corners in another order.
+pub fn turned(case: &Case) -> Case {
+    let objects = case.scene.objects.iter().rev().map(|object| {
+        let triangles = (object.first..object.first + object.count).rev();
+        triangles.map(|t| case.scene.corners(t)).map(|[a, b, c]| [b, c, a]).collect()
+    });
     Case {
         name: case.name.clone(),
-        scene: builder.finish(),
+        scene: soup(&case.name, objects),
         camera: case.camera.clone(),
         size: case.size,
         lights: case.lights.clone(),

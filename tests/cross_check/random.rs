@@ -1,9 +1,9 @@
 //! Random small scenes on a coarse grid: shared edges, coplanar and crossing faces, slivers, nothing nice.
 
-use crate::cases::Case;
+use crate::cases::{Case, soup};
 use crate::runner::{Asked, Setting, ask};
 use glam::Vec3;
-use lightbuffer::scene::{Camera, ImageSize, ObjectInput, SceneBuilder};
+use lightbuffer::scene::{Camera, ImageSize};
 use lightbuffer::shadow::{Basis, REGISTRY, Resolution};
 use proptest::prelude::*;
 
@@ -15,22 +15,11 @@ fn case() -> impl Strategy<Value = Case> {
     let triangles = prop::collection::vec(prop::array::uniform3(grid_point()), 2..14);
     let lights = prop::collection::vec(prop_oneof![grid_point(), grid_point().prop_map(|p| p * 1.37)], 1..4);
     (triangles, lights, grid_point(), 1usize..4).prop_map(|(triangles, lights, eye, objects)| {
-        let mut builder = SceneBuilder::new("random");
-        for part in triangles.chunks(triangles.len().div_ceil(objects)) {
-            let positions = part.iter().flatten().copied().collect();
-            let indices = (0..part.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-            let input = ObjectInput {
-                name: "part".into(),
-                material: 0,
-                positions,
-                triangles: indices,
-                normals: None,
-            };
-            builder.add_object(input).unwrap();
-        }
+        let parts = triangles.chunks(triangles.len().div_ceil(objects)).map(<[_]>::to_vec);
+        let scene = soup("random", parts);
         Case {
             name: "random".into(),
-            scene: builder.finish(),
+            scene,
             camera: Camera::look_at("eye", eye * 2.1, Vec3::ZERO, Vec3::Y, 60.0),
             size: ImageSize { width: 24, height: 16 },
             lights,

@@ -5,7 +5,6 @@
 //! through a triangle whose outer side the light is strictly on: whatever is deeper than all such triangles
 //! of the solid in the cell is dark.
 
-use super::build::round_up;
 use super::cell::{Candidate, Cover};
 use crate::geometry::Sign;
 use crate::geometry::convexity::Surface;
@@ -69,7 +68,7 @@ impl ConvexObjects {
                 let inside = |x: f64, y: f64| object.iter().any(|&(_, k)| footprint(k).contains(x, y));
                 grid.corners(column, row).iter().all(|&[x, y]| inside(x, y))
             })
-            .map(|object| object.iter().map(|&(_, k)| candidates[k].far).fold(round_up(0.0), f32::max))
+            .map(|object| object.iter().map(|&(_, k)| candidates[k].far).fold(0.0, f32::max))
             .fold(f32::INFINITY, f32::min)
     }
 }
