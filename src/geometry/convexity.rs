@@ -15,7 +15,7 @@ pub struct Convexity {
     /// For each triangle the side of its plane that the whole object lies on: the sign of
     /// det(a - q, b - q, c - q) for every corner q off the plane, zero if there is none.
     pub inner_side: Vec<Sign>,
-    /// Whether every edge belongs to exactly two triangles, so that the object is a solid's whole surface.
+    /// Whether the triangles are a solid's whole surface.
     pub surface: Surface,
 }
 
@@ -39,7 +39,8 @@ pub fn verify(triangles: &[[Vec3; 3]]) -> Option<Convexity> {
     corners.dedup();
     let inner_side =
         triangles.iter().map(|&t| supporting_side(t, &corners)).collect::<Option<Vec<Sign>>>()?;
-    Some(Convexity { inner_side, surface: surface(triangles) })
+    let surface = surface(triangles, &corners);
+    Some(Convexity { inner_side, surface })
 }
 
 fn supporting_side(triangle: [Vec3; 3], corners: &[Vec3]) -> Option<Sign> {
@@ -55,15 +56,35 @@ fn supporting_side(triangle: [Vec3; 3], corners: &[Vec3]) -> Option<Sign> {
     Some(side)
 }
 
-fn surface(triangles: &[[Vec3; 3]]) -> Surface {
-    let mut edges: HashMap<_, u32> = HashMap::new();
-    for [a, b, c] in triangles {
-        for (p, q) in [(a, b), (b, c), (c, a)] {
-            let (p, q) = (key(*p), key(*q));
-            *edges.entry((p.min(q), p.max(q))).or_default() += 1;
+/// What the triangles of a verified convex object amount to.
+///
+/// They lie on the boundary of the corners' hull. If every edge has two triangles, one on either side, then
+/// crossing an edge leaves the number of triangles over a point of the boundary as it is, so that it is the
+/// same everywhere and nothing is left out. Two triangles folded onto each other (a sheet modelled from both
+/// sides) would let the boundary end there.
+fn surface(triangles: &[[Vec3; 3]], corners: &[Vec3]) -> Surface {
+    let mut edges: HashMap<_, Vec<[Vec3; 3]>> = HashMap::new();
+    for &[a, b, c] in triangles {
+        for (p, q, apex) in [(a, b, c), (b, c, a), (c, a, b)] {
+            let (p, q) = if key(p) <= key(q) { (p, q) } else { (q, p) };
+            edges.entry((key(p), key(q))).or_default().push([p, q, apex]);
         }
     }
-    if edges.values().all(|&count| count == 2) { Surface::Closed } else { Surface::Open }
+    let closes = |owners: &Vec<[Vec3; 3]>| match owners[..] {
+        [first, second] => lie_on_either_side(first, second, corners),
+        _ => false,
+    };
+    if edges.values().all(closes) { Surface::Closed } else { Surface::Open }
+}
+
+/// Whether two triangles with the same first two corners, both with all `corners` on one side of their
+/// planes, continue each other there. Never in an object that is flat.
+fn lie_on_either_side(first: [Vec3; 3], second: [Vec3; 3], corners: &[Vec3]) -> bool {
+    if orientation(second[2], first) != Sign::Zero {
+        return true;
+    }
+    let off_plane = corners.iter().find(|&&q| orientation(q, first) != Sign::Zero);
+    off_plane.is_some_and(|&q| orientation(q, first) * orientation(q, second) == Sign::Negative)
 }
 
 /// Equal for equal positions, both zeros alike.
@@ -99,5 +120,28 @@ mod tests {
         let mut dented = tetrahedron();
         dented.push([Vec3::splat(0.1), Vec3::X, Vec3::Y]);
         assert!(verify(&dented).is_none());
+    }
+
+    #[test]
+    fn sheets_modelled_from_both_sides_are_no_solid() {
+        let turned = |[a, b, c]: [Vec3; 3]| [a, c, b];
+        let sheets = |faces: &[[Vec3; 3]]| -> Vec<_> { faces.iter().flat_map(|&f| [f, turned(f)]).collect() };
+        let faces = tetrahedron();
+        for some in [&faces[..1], &faces[..2], &faces[..]] {
+            assert_eq!(verify(&sheets(some)).unwrap().surface, Surface::Open);
+        }
+        // A flat square, cut along one diagonal above and along the other below.
+        let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+        let square = [[a, b, c], [a, c, d], [a, b, d], [b, c, d]];
+        assert_eq!(verify(&square).unwrap().surface, Surface::Open);
+    }
+
+    #[test]
+    fn a_box_with_two_coplanar_triangles_a_face_is_closed() {
+        let corner = |i: usize| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+        let quads = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+        let cut = |[a, b, c, d]: [usize; 4]| [[a, b, c].map(corner), [a, c, d].map(corner)];
+        let triangles: Vec<_> = quads.into_iter().flat_map(cut).collect();
+        assert_eq!(verify(&triangles).unwrap().surface, Surface::Closed);
     }
 }

@@ -40,7 +40,8 @@ pub struct LightTriangle {
 /// the offset another u (|p| + h). For edges h is 0: less than 7 u |p| in all. For the own plane h itself is
 /// wrong by 1.25 u h; a bound of 16 u |p| covers that where h <= 3 |p|, and where h is larger N . p - h is
 /// below -2 |p|, so that its computed sign is right by far. Underflow of a product or of a coordinate adds
-/// at most 2^-126 each, subnormals flushed or not.
+/// at most 2^-126 each, subnormals flushed or not. Where |p| is so large that a coordinate or a sum could
+/// overflow, the slack is infinite, which leaves every test undecided.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct LightPoint {
@@ -57,7 +58,8 @@ impl LightPoint {
         let size = p.x.abs() + p.y.abs() + p.z.abs();
         // Half an ulp of the position and half an ulp of the difference, generously.
         let position_error = 4.0 * ROUNDOFF * (rounded.x.abs() + rounded.y.abs() + rounded.z.abs() + size);
-        let slack = (size * (1.0 / 1_048_576.0) + position_error) * 1.000_001 + 1e-36;
+        let bound = (size * (1.0 / 1_048_576.0) + position_error) * 1.000_001 + 1e-36;
+        let slack = if size < f64::from(f32::MAX) * 0.25 { bound } else { f64::INFINITY };
         LightPoint { x: p.x as f32, y: p.y as f32, z: p.z as f32, slack: slack as f32 }
     }
 }

@@ -13,10 +13,6 @@ pub enum Framing {
     WithoutFloor,
 }
 
-/// The largest radius of a scene that is framed: the light's strength, some seventy times its square, must be
-/// an f32.
-const LARGEST_RADIUS: f32 = 1e18;
-
 /// Half the edge of the floor, in radii of the scene.
 const FLOOR_RADII: f32 = 6.0;
 
@@ -27,21 +23,22 @@ const FLOOR_RADII: f32 = 6.0;
 /// objects stay.
 ///
 /// # Errors
-/// [`Error::Usage`] if the scene has no triangle, or is too large for a camera and a light around it.
+/// [`Error::Usage`] if the scene has no triangle, or is so large that what is added would not be finite.
 pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
     let (low, high) =
         scene.bounds().ok_or_else(|| Error::Usage(format!("{}: the scene has no triangles", scene.name)))?;
     let centre = (low * 0.5) + (high * 0.5);
-    let radius = (high * 0.5 - low * 0.5).length().max(f32::MIN_POSITIVE);
-    if radius > LARGEST_RADIUS && (scene.cameras.is_empty() || scene.lights.is_empty()) {
-        let name = &scene.name;
-        return Err(Error::Usage(format!(
-            "{name}: too large for a camera and a light to be added around it"
-        )));
-    }
+    // Squares of f32 lengths overflow from 1e19 on and vanish below 1e-22.
+    let diagonal = (high.as_dvec3() - low.as_dvec3()).length();
+    let radius = ((diagonal * 0.5) as f32).max(f32::MIN_POSITIVE);
+    let finite = |what: &str, is_finite: bool| match is_finite {
+        true => Ok(()),
+        false => Err(Error::Usage(format!("{}: too large to be given a {what}", scene.name))),
+    };
     let mut added = Vec::new();
     if scene.cameras.is_empty() {
         let origin = centre + radius * Vec3::new(0.9, 0.85, 2.7);
+        finite("camera", (origin - centre).is_finite() && origin.is_finite())?;
         scene.cameras.push(Camera::look_at(
             "framed",
             origin,
@@ -53,7 +50,8 @@ pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
     }
     if scene.lights.is_empty() {
         let offset = radius * Vec3::new(-2.2, 3.4, 2.4);
-        let strength = 3.0 * offset.length_squared();
+        let strength = (3.0 * offset.length_squared()).max(f32::MIN_POSITIVE);
+        finite("light", strength.is_finite() && (centre + offset).is_finite())?;
         scene.lights.push(Light {
             name: "key".into(),
             point: PointLight {

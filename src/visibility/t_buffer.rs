@@ -5,6 +5,7 @@
 //! ray's rounding; exact edge signs then decide each ray, so that the paper's "bound to hit" holds but for
 //! rays within that rounding of an edge.
 
+use super::classical;
 use super::hit::{FirstHits, Hit, keep_nearer};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::ray_triangle::RayTriangle;
@@ -23,9 +24,17 @@ struct Cast {
     footprint: Footprint,
 }
 
+/// The largest image at distance 1, from its centre, on which [`pixel_grid`] bounds the rays: their depth
+/// is 1 within 2^-22 of their length.
+const WIDEST_IMAGE: f64 = 1_048_576.0;
+
 /// First hits by filling a t-buffer.
 pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
     let raster = camera.raster(size);
+    // Beyond this a ray's rounding can turn it behind the image plane, where there are no footprints.
+    if 1.0 + raster.x0.abs() + raster.y0.abs() > WIDEST_IMAGE {
+        return classical::first_hits(scene, camera, size);
+    }
     let grid = pixel_grid(&raster, size);
     let [x, y, z] = [camera.right, camera.up, camera.forward].map(|axis| axis.as_dvec3());
     let frame = Frame::new(x, y, z);
@@ -108,7 +117,6 @@ fn chunks(object: &Object) -> impl Iterator<Item = std::ops::Range<PrimitiveInde
 mod tests {
     use super::*;
     use crate::scene::{ObjectInput, SceneBuilder};
-    use crate::visibility::classical;
     use glam::Vec3;
     use proptest::prelude::*;
 

@@ -11,10 +11,10 @@ use crate::geometry::Sign;
 use crate::geometry::convexity::Surface;
 use crate::geometry::footprint::{Footprint, Grid};
 use crate::geometry::light_triangle::orientation;
-use crate::scene::PrimitiveIndex;
+use crate::scene::{Object, PrimitiveIndex};
 use crate::shadow::{BuildInput, Casters};
 
-/// Which casters are the near side of closed convex objects.
+/// Which casters are the near side of closed convex objects that are cast whole.
 pub(super) struct ConvexObjects {
     /// Object of each caster, if it is one and the light lies outside of that triangle; empty if the scene
     /// has none.
@@ -22,14 +22,21 @@ pub(super) struct ConvexObjects {
 }
 
 impl ConvexObjects {
+    /// An object counts only if all of its triangles are cast for it: a face that was merged with another
+    /// object's would be missing from its depth.
     pub fn new(input: &BuildInput, casters: &Casters) -> ConvexObjects {
+        let scene = input.scene;
+        let object_of = |primitive: PrimitiveIndex| scene.triangles[primitive as usize].object;
+        let mut cast = vec![0; scene.objects.len()];
+        input.index.casting.iter().for_each(|&primitive| cast[object_of(primitive) as usize] += 1);
         let object_before = |&primitive: &PrimitiveIndex| {
-            let object = input.scene.triangles[primitive as usize].object;
+            let object = object_of(primitive);
+            let Object { first, count, .. } = scene.objects[object as usize];
             let convexity = input.index.convexity[object as usize].as_ref()?;
-            let within = primitive - input.scene.objects[object as usize].first;
-            let light = orientation(input.light, input.scene.corners(primitive));
-            let outside = convexity.inner_side[within as usize] * light == Sign::Negative;
-            (convexity.surface == Surface::Closed && outside).then_some(object)
+            let light = orientation(input.light, scene.corners(primitive));
+            let outside = convexity.inner_side[(primitive - first) as usize] * light == Sign::Negative;
+            let whole = convexity.surface == Surface::Closed && cast[object as usize] == count;
+            (whole && outside).then_some(object)
         };
         let objects: Vec<_> = casters.primitives.iter().map(object_before).collect();
         let any = objects.iter().any(Option::is_some);

@@ -9,21 +9,20 @@ mod audit;
 mod build;
 mod cell;
 mod convex_cover;
+mod convex_self;
 pub mod cube;
 #[cfg(test)]
 mod tests;
 
 pub use audit::Audit;
 
-use super::{
-    Basis, BuildInput, Casters, Counters, Receivers, Resolution, SceneIndex, ShadowTester, TesterEntry,
-};
+use super::{Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry};
 use crate::error::{Error, Result};
-use crate::geometry::light_triangle::orientation;
 use crate::geometry::occlusion::{PreciseQuery, Stage};
-use crate::geometry::{ExactPosition, Filtered, LightPoint, Sign};
-use crate::scene::{PrimitiveIndex, Scene};
+use crate::geometry::{ExactPosition, Filtered, LightPoint};
+use crate::scene::Scene;
 use crate::visibility::SurfacePoint;
+use convex_self::HarmlessObjects;
 use cube::Located;
 use glam::Vec3;
 
@@ -116,10 +115,10 @@ pub struct Statistics {
 /// The light buffer of one light, good for every view of its scene.
 pub struct LightBuffer<'a> {
     scene: &'a Scene,
-    index: &'a SceneIndex,
     light: Vec3,
     receivers: Receivers,
     casters: Casters,
+    harmless: HarmlessObjects,
     faces: [Option<FaceLists>; 6],
     statistics: Statistics,
 }
@@ -143,10 +142,10 @@ impl<'a> LightBuffer<'a> {
         let (faces, statistics) = build::build(input, &casters, resolution)?;
         Ok(LightBuffer {
             scene: input.scene,
-            index: input.index,
             light: input.light,
             receivers: input.receivers,
             casters,
+            harmless: HarmlessObjects::new(input),
             faces,
             statistics,
         })
@@ -184,6 +183,8 @@ impl<'a> LightBuffer<'a> {
         at: Located,
         counters: &mut Counters,
     ) -> bool {
+        let base = point.primitive();
+        let harmless = base.and_then(|base| self.harmless.of(base));
         let relative = LightPoint::new(self.light, point.position);
         counters.lists += u64::from(!list.is_empty());
         for record in list {
@@ -192,7 +193,9 @@ impl<'a> LightBuffer<'a> {
                 return false;
             }
             let primitive = self.casters.primitives[record.caster as usize];
-            if point.primitive().is_some_and(|base| self.cannot_shadow(primitive, base)) {
+            // Rows 15 and 16: neither the base surface nor its own convex object.
+            let is_harmless = |object| self.scene.triangles[primitive as usize].object == object;
+            if base == Some(primitive) || harmless.is_some_and(is_harmless) {
                 continue;
             }
             counters.tests += 1;
@@ -212,23 +215,6 @@ impl<'a> LightBuffer<'a> {
         }
         false
     }
-
-    /// Whether a triangle cannot shadow points of a base surface: it is the base surface itself (row 15), or
-    /// both belong to a convex object that lies wholly on the other side of the base surface's plane than
-    /// the light (row 16).
-    fn cannot_shadow(&self, primitive: PrimitiveIndex, base: PrimitiveIndex) -> bool {
-        if primitive == base {
-            return true;
-        }
-        let object = self.scene.triangles[base as usize].object;
-        if self.scene.triangles[primitive as usize].object != object {
-            return false;
-        }
-        let Some(convexity) = &self.index.convexity[object as usize] else { return false };
-        let inner = convexity.inner_side[(base - self.scene.objects[object as usize].first) as usize];
-        let light = orientation(self.light, self.scene.corners(base));
-        inner * light != Sign::Positive && light != Sign::Zero
-    }
 }
 
 impl ShadowTester for LightBuffer<'_> {
@@ -246,7 +232,9 @@ impl ShadowTester for LightBuffer<'_> {
     }
 
     fn bytes(&self) -> usize {
-        self.casters.bytes() + self.faces.iter().flatten().map(FaceLists::bytes).sum::<usize>()
+        self.casters.bytes()
+            + self.harmless.bytes()
+            + self.faces.iter().flatten().map(FaceLists::bytes).sum::<usize>()
     }
 
     fn statistics(&self) -> Vec<(&'static str, String)> {

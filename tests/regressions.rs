@@ -1,0 +1,142 @@
+//! Wrong answers of the past, each with the input that showed it.
+
+use glam::Vec3;
+use lightbuffer::geometry::batch::InstructionSet;
+use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, frame};
+use lightbuffer::shadow::brute_force::BruteForce;
+use lightbuffer::shadow::exact::Occlusion;
+use lightbuffer::shadow::exact::plain::PlainTest;
+use lightbuffer::shadow::light_buffer::LightBuffer;
+use lightbuffer::shadow::{
+    BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, ShadowTester, exact,
+};
+use lightbuffer::visibility::{SurfacePoint, classical, t_buffer};
+
+fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
+    let mut builder = SceneBuilder::new("regression");
+    for triangles in objects {
+        let input = ObjectInput {
+            name: "object".into(),
+            material: 0,
+            positions: triangles.iter().flatten().copied().collect(),
+            triangles: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+            normals: None,
+        };
+        builder.add_object(input).unwrap();
+    }
+    builder.finish()
+}
+
+/// Every tester says what the definition says.
+fn all_agree(scene: &Scene, light: Vec3, points: &[SurfacePoint], receivers: Receivers) {
+    let plain = PlainTest::new(scene, light, points);
+    let truth: Vec<bool> = points.iter().map(|p| plain.decide(p) == Occlusion::Occluded).collect();
+    let index = SceneIndex::new(scene);
+    let embree = EmbreeSettings { epsilon: 0.0, threads: 1 };
+    let input = |resolution| BuildInput { scene, index: &index, light, resolution, receivers, embree };
+    let check = |name: String, tester: &dyn ShadowTester| {
+        let mut answers = vec![false; points.len()];
+        tester.occluded(points, &mut answers).unwrap();
+        assert_eq!(answers, truth, "{name}");
+    };
+    check("exact".into(), &exact::Arbiter::new(&input(Resolution::Auto)));
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        check(format!("brute force, {set:?}"), &BruteForce::new(&input(Resolution::Auto), set));
+    }
+    for cells in [1, 2, 3, 7, 64] {
+        let buffer = LightBuffer::new(&input(Resolution::Cells(cells))).unwrap();
+        buffer.validate().unwrap();
+        check(format!("light buffer, {cells} cells"), &buffer);
+    }
+}
+
+fn both_sides(triangle: [Vec3; 3]) -> [[Vec3; 3]; 2] {
+    let [a, b, c] = triangle;
+    [[a, b, c], [a, c, b]]
+}
+
+/// Two sheets with a gap between them, their outer corners raised by `bend`, in front of a floor.
+fn gap_between_sheets(bend: f32) -> Scene {
+    let left = [Vec3::new(-0.25, -9.0, 1.0), Vec3::new(-0.25, 9.0, 1.0), Vec3::new(-9.0, 0.0, 1.0 + bend)];
+    let right = left.map(|p| Vec3::new(-p.x, p.y, p.z));
+    let sheets = both_sides(left).into_iter().chain(both_sides(right)).collect();
+    let floor = vec![[Vec3::new(-9.0, -9.0, 4.0), Vec3::new(9.0, -9.0, 4.0), Vec3::new(0.0, 9.0, 4.0)]];
+    scene(&[sheets, floor])
+}
+
+#[test]
+fn sheets_modelled_from_both_sides_leave_the_gap_between_them_open() {
+    // Every edge belongs to two triangles and every plane supports the object, yet it is no solid.
+    for bend in [0.0, 0.25] {
+        let scene = gap_between_sheets(bend);
+        let point = SurfacePoint::on_ray(&scene, Vec3::ZERO, Vec3::new(0.0, 0.1, 1.0), 4);
+        all_agree(&scene, Vec3::ZERO, &[point], Receivers::Surfaces);
+    }
+}
+
+#[test]
+fn differences_beyond_the_range_of_f32_are_decided() {
+    // p - light overflows in x alone, so that a float filter sees (inf, finite, finite).
+    let (light, huge) = (Vec3::new(-3e38, 0.0, 0.0), 3e38f32);
+    let triangle =
+        vec![[Vec3::new(0.0, -huge, -huge), Vec3::new(0.0, huge, -huge), Vec3::new(0.0, 1e37, huge)]];
+    let scene = scene(&[triangle]);
+    let steps = [-3e38f32, -2e38, -1e38, -1e37, 0.0, 1e30, 1e37, 1e38, 1.7e38, 2e38, 3e38, 3.4e38];
+    let points: Vec<_> = steps
+        .iter()
+        .flat_map(|&x| steps.iter().flat_map(move |&y| steps.map(|z| SurfacePoint::bare(Vec3::new(x, y, z)))))
+        .collect();
+    all_agree(&scene, light, &points, Receivers::Anywhere);
+}
+
+#[test]
+fn fields_of_view_just_below_a_half_turn_are_seen_alike() {
+    // Directions lose the view's own share to rounding and run in the image plane or behind it.
+    let behind = vec![[Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(-1.0, 0.0, -3.0)]];
+    let scene = scene(&[behind]);
+    let size = ImageSize { width: 31, height: 17 };
+    for below in [1e-2, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12] {
+        let camera = Camera::look_at("c", Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Vec3::Y, 180.0 - below);
+        let filled = t_buffer::first_hits(&scene, &camera, size);
+        let traced = classical::first_hits(&scene, &camera, size);
+        assert_eq!(filled.primitives, traced.primitives, "{below:e} degrees below");
+    }
+}
+
+#[test]
+fn a_solid_that_shares_faces_with_an_earlier_object_does_not_darken_them_from_inside() {
+    // The shared faces are cast once, for the cap; what remains of the solid ends before the cap's peak.
+    let ring = |half: f32, z: f32| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x * half, y * half, z))
+    };
+    let (inner, outer, bottom) = (ring(1.0, 1.6), ring(3.0, 0.5), ring(3.0, -3.0));
+    let peak = Vec3::new(0.0, 0.0, 2.0);
+    let cap: Vec<_> = (0..4).map(|i| [peak, inner[i], inner[(i + 1) % 4]]).collect();
+    let band = |a: [Vec3; 4], b: [Vec3; 4], i: usize| {
+        let j = (i + 1) % 4;
+        [[a[i], b[i], b[j]], [a[i], b[j], a[j]]]
+    };
+    let mut solid = cap.clone();
+    solid.extend((0..4).flat_map(|i| band(inner, outer, i)));
+    solid.extend((0..4).flat_map(|i| band(outer, bottom, i)));
+    solid.extend([[bottom[0], bottom[1], bottom[2]], [bottom[0], bottom[2], bottom[3]]]);
+    let scene = scene(&[cap, solid]);
+    let up = Vec3::new(0.01, -0.02, 1.0);
+    let points = [0, 4].map(|cap| SurfacePoint::on_ray(&scene, Vec3::ZERO, up, cap));
+    all_agree(&scene, Vec3::new(0.1, 0.03, 0.0), &points, Receivers::Surfaces);
+}
+
+#[test]
+fn scenes_of_any_size_are_framed_or_refused() {
+    let triangle = |size: f32| scene(&[vec![[Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * size)]]);
+    for size in [1e-36, 1e-25, 1e-20, 1.0, 1e17] {
+        let mut scene = triangle(size);
+        frame(&mut scene, Framing::WithFloor).unwrap();
+        let image = ImageSize { width: 16, height: 16 };
+        let seen = t_buffer::first_hits(&scene, &scene.cameras[0], image).primitives;
+        assert!(seen.contains(&Some(0)), "{size:e}");
+    }
+    for size in [1e20, 1e38] {
+        assert!(frame(&mut triangle(size), Framing::WithFloor).is_err(), "{size:e}");
+    }
+}
