@@ -90,7 +90,7 @@ fn a_mesh_too_large_to_be_framed() {
     for command in [&["info"][..], &["validate", "-o", "never"]] {
         let arguments = command.iter().map(|a| a.as_ref()).chain([scene.as_os_str()]);
         let line = lightbuffer(arguments).failed();
-        assert_eq!(line, "lightbuffer: vast.obj: too large for a camera and a light to be added around it");
+        assert_eq!(line, "lightbuffer: vast.obj: too large to be given a camera");
     }
     assert_eq!(names(&folder.path("")), ["vast.obj"]);
 }
