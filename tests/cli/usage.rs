@@ -34,7 +34,7 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
     let output = output.to_str().unwrap();
     let run = |options: &[&str]| lightbuffer(["validate", BLOCKS, "-o", output].iter().chain(options));
     run(&["--frobnicate"]).misused("'--frobnicate'");
-    run(&["--shadow", "best"]).misused("; there are: exact, brute-force, light-buffer");
+    run(&["--shadow", "best"]).misused("; there are: exact, ");
     run(&["--testers", "exact,worst"]).misused("no shadow tester `worst`");
     run(&["--testers", ""]).misused("no shadow tester ``");
     for size in ["0x54", "96x0", "96", "96x54x3", "-1x5", "99999x99999", "axb"] {
