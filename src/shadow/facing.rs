@@ -76,6 +76,6 @@ mod tests {
     #[test]
     fn a_point_on_no_surface_faces_every_light() {
         let nothing = Sides(Vec::new());
-        assert!(faces(&SurfacePoint::bare(Vec3::ONE), &nothing, &nothing));
+        assert!(faces(&SurfacePoint::bare(Vec3::ONE).unwrap(), &nothing, &nothing));
     }
 }
