@@ -29,10 +29,12 @@ demo: packages
 	target/release/lightbuffer validate scenes/courtyard.glb --size $(DEMO_SIZE) -o out/courtyard
 	@echo "Images, difference maps and verdicts are in $(CURDIR)/out/blocks and $(CURDIR)/out/courtyard"
 
-# The library's own tests run in debug too: overflow checks and assertions see what release does not.
+# The library's own tests run in debug too: overflow checks and assertions see what release does not. So does the
+# one that holds the masks of both profiles against each other.
 test: packages
 	$(CARGO) test --release --no-fail-fast
 	$(CARGO) test --lib
+	$(CARGO) test --test cross_check masks_do_not_depend_on_the_build_profile
 
 # One test after another: they print times, and each of them uses all threads.
 test-scenes: packages
