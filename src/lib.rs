@@ -50,13 +50,11 @@
 //!
 //! # fn main() -> lightbuffer::Result<()> {
 //! let mut builder = SceneBuilder::new("one triangle");
-//! builder.add_object(ObjectInput {
-//!     name: "triangle".into(),
-//!     material: 0,
-//!     positions: vec![Vec3::new(-1.0, 1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(0.0, 1.0, 1.0)],
-//!     triangles: vec![[0, 1, 2]],
-//!     normals: None,
-//! })?;
+//! builder.add_object(ObjectInput::new(
+//!     "triangle",
+//!     vec![Vec3::new(-1.0, 1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(0.0, 1.0, 1.0)],
+//!     vec![[0, 1, 2]],
+//! ))?;
 //! let scene = builder.finish();
 //! let index = SceneIndex::new(&scene);
 //! let tester = (find("light-buffer")?.build)(&BuildInput {

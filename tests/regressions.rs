@@ -15,13 +15,11 @@ use lightbuffer::visibility::{SurfacePoint, classical, t_buffer};
 fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
     let mut builder = SceneBuilder::new("regression");
     for triangles in objects {
-        let input = ObjectInput {
-            name: "object".into(),
-            material: 0,
-            positions: triangles.iter().flatten().copied().collect(),
-            triangles: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
-            normals: None,
-        };
+        let input = ObjectInput::new(
+            "object",
+            triangles.iter().flatten().copied().collect(),
+            (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        );
         builder.add_object(input).unwrap();
     }
     builder.finish()

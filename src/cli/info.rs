@@ -6,7 +6,9 @@ use super::view::View;
 use super::{Outcome, output};
 use crate::error::Result;
 use crate::film::grouped;
+use crate::geometry::LightPosition;
 use crate::geometry::convexity::Surface;
+use crate::scene::Light;
 use crate::shadow::SceneIndex;
 use serde::Serialize;
 use std::fmt::Write;
@@ -48,8 +50,21 @@ struct Facts {
 #[derive(Debug, Serialize)]
 struct LightFacts {
     name: String,
-    position: [f32; 3],
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    position: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    towards: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cone: Option<ConeFacts>,
     intensity: [f32; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct ConeFacts {
+    axis: [f32; 3],
+    cos_inner: f32,
+    cos_outer: f32,
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
@@ -85,18 +100,30 @@ fn facts(view: &View) -> Facts {
         convex_sheets: surfaces(Surface::Open),
         low: low.to_array(),
         high: high.to_array(),
-        lights: scene
-            .lights
-            .iter()
-            .map(|light| LightFacts {
-                name: light.name.clone(),
-                position: light.point.position.to_array(),
-                intensity: light.point.intensity,
-            })
-            .collect(),
+        lights: scene.lights.iter().map(light_facts).collect(),
         cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
         added: view.added.clone(),
         warnings: scene.warnings.clone(),
+    }
+}
+
+fn light_facts(light: &Light) -> LightFacts {
+    let (position, towards) = match light.position() {
+        LightPosition::At(point) => (Some(point.to_array()), None),
+        LightPosition::Towards(direction) => (None, Some(direction.to_array())),
+    };
+    let cone = light.cone().map(|cone| ConeFacts {
+        axis: cone.axis.to_array(),
+        cos_inner: cone.cos_inner,
+        cos_outer: cone.cos_outer,
+    });
+    LightFacts {
+        name: light.name.clone(),
+        kind: light.kind(),
+        position,
+        towards,
+        cone,
+        intensity: light.strength(),
     }
 }
 
@@ -127,11 +154,12 @@ fn text(facts: &Facts) -> String {
     );
     let _ = writeln!(out, "  bounds: {:?} to {:?}", facts.low, facts.high);
     for light in &facts.lights {
-        let _ = writeln!(
-            out,
-            "  light {}: point at {:?}, intensity {:?}",
-            light.name, light.position, light.intensity
-        );
+        let place = match (light.position, light.towards) {
+            (Some(position), _) => format!("at {position:?}"),
+            (None, towards) => format!("towards {:?}", towards.unwrap_or_default()),
+        };
+        let _ =
+            writeln!(out, "  light {}: {} {place}, intensity {:?}", light.name, light.kind, light.intensity);
     }
     for camera in &facts.cameras {
         let _ = writeln!(out, "  camera {camera}");

@@ -2,7 +2,7 @@
 
 use super::options::{RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
-use super::view::{Seen, View};
+use super::view::{self, Seen, View};
 use super::{Outcome, output, picture, validate};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr};
@@ -88,7 +88,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     }
     let mut lights = Vec::new();
     for light in &view.scene.lights {
-        let position = light.point.position;
+        let position = view::supported_position(light)?;
         let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
         let input = args.run.build_input(&view.scene, &index, position);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);

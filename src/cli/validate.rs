@@ -3,7 +3,7 @@
 use super::Outcome;
 use super::options::{RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
-use super::view::{Seen, View};
+use super::view::{self, Seen, View};
 use super::{output, picture};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
@@ -92,7 +92,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     };
     let mut judged = Vec::new();
     for light in &view.scene.lights {
-        let position = light.point.position;
+        let position = view::supported_position(light)?;
         let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
         let input = args.run.build_input(&view.scene, &index, position);
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);

@@ -3,6 +3,7 @@
 use super::options::ViewOptions;
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
+use crate::geometry::LightPosition;
 use crate::scene::{Camera, Framing, Light, PointLight, Scene, formats, frame};
 use crate::shadow::facing::Sides;
 use crate::visibility::{FirstHits, VisibleSurfaces, t_buffer};
@@ -90,12 +91,26 @@ fn replace_lights(scene: &mut Scene, options: &ViewOptions) -> Result<()> {
     let light = |(i, &position): (usize, &Vec3)| {
         let strength = (share * (position - centre).length_squared()).max(f32::MIN_POSITIVE);
         let point = PointLight { position, intensity: [strength; 3], range: None };
-        Light { name: format!("light-{}", i + 1), point }
+        Light::point(format!("light-{}", i + 1), point)
     };
     scene.lights = positions.iter().enumerate().map(light).collect();
-    match scene.lights.iter().find(|l| !l.point.position.is_finite() || !l.point.intensity[0].is_finite()) {
+    let is_finite = |l: &&Light| l.position().homogeneous().0.is_finite() && l.strength()[0].is_finite();
+    match scene.lights.iter().find(|l| !is_finite(l)) {
         Some(light) => Err(Error::Usage(format!("{}: too far from the scene for 32-bit floats", light.name))),
         None => Ok(()),
+    }
+}
+
+/// The position of a light that testers can be asked about.
+///
+/// # Errors
+/// [`Error::Usage`] for a light that is infinitely far away.
+pub fn supported_position(light: &Light) -> Result<Vec3> {
+    match light.position() {
+        LightPosition::At(point) => Ok(point),
+        LightPosition::Towards(_) => {
+            Err(Error::Usage(format!("light {}: directional lights are not supported yet", light.name)))
+        }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod convexity;
 mod double_double;
 pub mod expansion;
 pub mod footprint;
+mod light_position;
 pub mod light_triangle;
 pub mod occlusion;
 pub mod position;
@@ -16,6 +17,7 @@ pub mod ray_triangle;
 mod rounding;
 mod sign;
 
+pub use light_position::LightPosition;
 pub use light_triangle::{Filtered, LightPoint, LightTriangle};
 pub use position::ExactPosition;
 pub use sign::Sign;

@@ -1,6 +1,6 @@
 //! From what loaders read to a checked [`Scene`].
 
-use super::{Camera, Light, Material, Object, Scene, Triangle};
+use super::{Camera, Light, Material, Object, Scene, Shadowing, Triangle};
 use crate::error::{Error, Result};
 use glam::Vec3;
 use std::collections::HashMap;
@@ -40,6 +40,16 @@ pub struct ObjectInput {
     pub triangles: Vec<[u32; 3]>,
     /// Shading normals, if the file has them.
     pub normals: Option<SmoothNormals>,
+    /// Its part in shadows.
+    pub shadowing: Shadowing,
+}
+
+impl ObjectInput {
+    /// Triangles of the default material, without shading normals, that cast and receive shadows.
+    pub fn new(name: impl Into<String>, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> ObjectInput {
+        let shadowing = Shadowing::default();
+        ObjectInput { name: name.into(), material: 0, positions, triangles, normals: None, shadowing }
+    }
 }
 
 /// Collects objects, materials, lights and cameras, and checks them.
@@ -141,6 +151,7 @@ impl SceneBuilder {
             first,
             count: scene.triangles.len() as u32 - first,
             normals: input.normals.map(|n| SmoothNormals { normals: n.normals, corners }),
+            shadowing: input.shadowing,
         });
         Ok(())
     }
@@ -200,13 +211,7 @@ mod tests {
     use crate::scene::PointLight;
 
     fn object(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> ObjectInput {
-        ObjectInput {
-            name: "test".into(),
-            material: 0,
-            positions: positions.iter().map(|&p| Vec3::from(p)).collect(),
-            triangles: triangles.to_vec(),
-            normals: None,
-        }
+        ObjectInput::new("test", positions.iter().map(|&p| Vec3::from(p)).collect(), triangles.to_vec())
     }
 
     #[test]
@@ -225,9 +230,8 @@ mod tests {
     #[test]
     fn lights_of_one_name_are_numbered_in_order() {
         let mut builder = SceneBuilder::new("test");
-        let light = |name: &str| Light {
-            name: name.into(),
-            point: PointLight { position: Vec3::ZERO, intensity: [1.0; 3], range: None },
+        let light = |name: &str| {
+            Light::point(name, PointLight { position: Vec3::ZERO, intensity: [1.0; 3], range: None })
         };
         for name in ["a", "a-2", "a", "a", "b"] {
             builder.add_light(light(name));

@@ -52,14 +52,14 @@ pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
         let offset = radius * Vec3::new(-2.2, 3.4, 2.4);
         let strength = (3.0 * offset.length_squared()).max(f32::MIN_POSITIVE);
         finite("light", strength.is_finite() && (centre + offset).is_finite())?;
-        scene.lights.push(Light {
-            name: "key".into(),
-            point: PointLight {
+        scene.lights.push(Light::point(
+            "key",
+            PointLight {
                 position: centre + offset,
                 intensity: [strength, strength * 0.97, strength * 0.92],
                 range: None,
             },
-        });
+        ));
         added.push("light `key`".into());
         if framing == Framing::WithFloor {
             add_floor(scene, centre, low.y, radius)?;
@@ -76,11 +76,12 @@ fn add_floor(scene: &mut Scene, centre: Vec3, height: f32, radius: f32) -> Resul
     let material =
         builder.add_material(Material { name: "floor".into(), diffuse: [0.55; 3], ..Material::default() });
     builder.add_object(ObjectInput {
-        name: "floor".into(),
         material,
-        positions: vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        normals: None,
+        ..ObjectInput::new(
+            "floor",
+            vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)],
+            vec![[0, 1, 2], [0, 2, 3]],
+        )
     })?;
     *scene = builder.into_scene();
     Ok(())

@@ -1,5 +1,6 @@
-//! Lights.
+//! Lights. Colours are linear Rec. 709; kinds and units are those of glTF's `KHR_lights_punctual`.
 
+use crate::geometry::LightPosition;
 use glam::Vec3;
 
 /// A light with its name.
@@ -7,8 +8,19 @@ use glam::Vec3;
 pub struct Light {
     /// The name that the scene file gives it; unique after loading.
     pub name: String,
-    /// Where it is and how strong.
-    pub point: PointLight,
+    /// Where it is, where it shines, and how strong.
+    pub emitter: Emitter,
+}
+
+/// The kinds of lights.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Emitter {
+    /// Shines from one point equally in all directions.
+    Point(PointLight),
+    /// Shines from one point into a cone.
+    Spot(SpotLight),
+    /// Shines from infinitely far away.
+    Directional(DirectionalLight),
 }
 
 /// A light that shines from one point equally in all directions.
@@ -16,8 +28,80 @@ pub struct Light {
 pub struct PointLight {
     /// Position in world space.
     pub position: Vec3,
-    /// Radiant intensity (power per solid angle), linear Rec. 709.
+    /// Radiant intensity (power per solid angle).
     pub intensity: [f32; 3],
     /// Distance at which glTF's attenuation reaches zero; `None` is the plain inverse square.
     pub range: Option<f32>,
+}
+
+/// A point light that shines into a cone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpotLight {
+    /// The light in the direction of the axis.
+    pub point: PointLight,
+    /// Where it shines.
+    pub cone: Cone,
+}
+
+/// The cone of a spot light, half its opening below a right angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    /// Where the light looks, in world space; not zero, not normalised.
+    pub axis: Vec3,
+    /// Cosine of the angle from the axis within which the light has its full strength, above `cos_outer`.
+    pub cos_inner: f32,
+    /// Cosine of the angle from the axis at which nothing is left, from 0 up. Those very bits are the cone:
+    /// a point is in it if the exact cosine is above.
+    pub cos_outer: f32,
+}
+
+/// A light that shines from infinitely far away, along parallel lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DirectionalLight {
+    /// From surfaces towards the light, in world space; not zero, not normalised.
+    pub towards: Vec3,
+    /// Irradiance on a surface that faces it (power per area).
+    pub irradiance: [f32; 3],
+}
+
+impl Light {
+    /// A light that shines equally in all directions.
+    pub fn point(name: impl Into<String>, light: PointLight) -> Light {
+        Light { name: name.into(), emitter: Emitter::Point(light) }
+    }
+
+    /// The far end of its shadow segments.
+    pub fn position(&self) -> LightPosition {
+        match &self.emitter {
+            Emitter::Point(light) | Emitter::Spot(SpotLight { point: light, .. }) => {
+                LightPosition::At(light.position)
+            }
+            Emitter::Directional(light) => LightPosition::Towards(light.towards),
+        }
+    }
+
+    /// The cone that it shines into, if it is a spot light.
+    pub fn cone(&self) -> Option<&Cone> {
+        match &self.emitter {
+            Emitter::Spot(light) => Some(&light.cone),
+            Emitter::Point(_) | Emitter::Directional(_) => None,
+        }
+    }
+
+    /// Its strength: radiant intensity, or irradiance if it is infinitely far away.
+    pub fn strength(&self) -> [f32; 3] {
+        match &self.emitter {
+            Emitter::Point(light) | Emitter::Spot(SpotLight { point: light, .. }) => light.intensity,
+            Emitter::Directional(light) => light.irradiance,
+        }
+    }
+
+    /// The kind in one word.
+    pub fn kind(&self) -> &'static str {
+        match self.emitter {
+            Emitter::Point(_) => "point",
+            Emitter::Spot(_) => "spot",
+            Emitter::Directional(_) => "directional",
+        }
+    }
 }

@@ -14,7 +14,7 @@ mod material;
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
 pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
-pub use light::{Light, PointLight};
+pub use light::{Cone, DirectionalLight, Emitter, Light, PointLight, SpotLight};
 pub use material::Material;
 
 use glam::Vec3;
@@ -44,6 +44,23 @@ pub struct Object {
     pub count: u32,
     /// Normals for shading alone; they never decide who sees a light.
     pub normals: Option<SmoothNormals>,
+    /// Its part in shadows.
+    pub shadowing: Shadowing,
+}
+
+/// An object's part in shadows. Both are so unless the scene file says otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shadowing {
+    /// Whether it blocks light.
+    pub casts: bool,
+    /// Whether light that reaches it can be blocked: if not, what faces a light is lit by it.
+    pub receives: bool,
+}
+
+impl Default for Shadowing {
+    fn default() -> Shadowing {
+        Shadowing { casts: true, receives: true }
+    }
 }
 
 /// A scene, complete and checked: every index is in range, every number finite, no triangle degenerate.
@@ -109,7 +126,13 @@ impl Scene {
             let corners = t.vertices.map(|v| self.vertices[v as usize].to_array());
             corners.into_iter().flatten().map(f32::to_bits).chain([t.object])
         });
-        let lights = self.lights.iter().flat_map(|l| l.point.position.to_array().map(f32::to_bits));
+        // A point light's w is not fed, as it never was: its hash is that of its coordinates.
+        let lights = self.lights.iter().flat_map(|light| {
+            let (xyz, w) = light.position().homogeneous();
+            let cone = light.cone().map(|cone| [cone.axis.x, cone.axis.y, cone.axis.z, cone.cos_outer]);
+            let rest = (w == 0.0).then_some(w).into_iter().chain(cone.into_iter().flatten());
+            xyz.to_array().into_iter().chain(rest).map(f32::to_bits).collect::<Vec<_>>()
+        });
         corners.chain(lights).flat_map(u32::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
         })

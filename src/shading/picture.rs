@@ -35,7 +35,7 @@ pub fn shade_picture(
         .map(|(i, point)| {
             let seen = lights.iter().zip(sees).filter(|(_, sees)| sees[i]);
             let samples: Vec<LightSample> =
-                seen.filter_map(|(light, _)| sample_light(&light.point, point.position)).collect();
+                seen.filter_map(|(light, _)| sample_light(light, point.position)).collect();
             shade_point(scene, camera, point, &ambient, &samples)
         })
         .collect()

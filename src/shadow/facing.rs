@@ -44,10 +44,8 @@ mod tests {
         let [one, other] = [[0, 1, 2], [0, 2, 1]].map(|corners| {
             let mut builder = SceneBuilder::new("test");
             let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Z];
-            let (name, triangles) = ("t".into(), vec![corners]);
-            builder
-                .add_object(ObjectInput { name, material: 0, positions, triangles, normals: None })
-                .unwrap();
+            let (name, triangles) = ("t", vec![corners]);
+            builder.add_object(ObjectInput::new(name, positions, triangles)).unwrap();
             let scene = builder.finish();
             let point = SurfacePoint::on_ray(&scene, eye, Vec3::NEG_Y * eye_height.signum(), 0);
             faces(&point, &Sides::of(&scene, light), &Sides::of(&scene, eye))

@@ -123,13 +123,7 @@ mod tests {
     fn scene(triangles: &[[Vec3; 3]]) -> Scene {
         let mut builder = SceneBuilder::new("test");
         for triangle in triangles {
-            let input = ObjectInput {
-                name: "t".into(),
-                material: 0,
-                positions: triangle.to_vec(),
-                triangles: vec![[0, 1, 2]],
-                normals: None,
-            };
+            let input = ObjectInput::new("t", triangle.to_vec(), vec![[0, 1, 2]]);
             builder.add_object(input).unwrap();
         }
         builder.finish()

@@ -57,8 +57,7 @@ impl Parts {
         let mut builder = SceneBuilder::new(name);
         for (i, (positions, triangles)) in self.0.into_iter().enumerate() {
             let positions = positions.into_iter().map(&place).collect();
-            let input =
-                ObjectInput { name: format!("part {i}"), material: 0, positions, triangles, normals: None };
+            let input = ObjectInput::new(format!("part {i}"), positions, triangles);
             builder.add_object(input).unwrap();
         }
         builder.finish()
@@ -181,7 +180,7 @@ fn file(name: &str) -> Case {
     let mut scene = formats::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap();
     frame(&mut scene, Framing::WithFloor).unwrap();
     let camera = scene.cameras[0].clone();
-    let lights = scene.lights.iter().map(|light| light.point.position).collect();
+    let lights = scene.lights.iter().map(|light| light.position().homogeneous().0).collect();
     Case { name: name.into(), scene, camera, size: SIZE, lights }
 }
 
@@ -191,7 +190,7 @@ pub fn soup(name: &str, objects: impl Iterator<Item = Vec<[Vec3; 3]>>) -> Scene 
     for triangles in objects {
         let positions = triangles.iter().flatten().copied().collect();
         let triangles = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let input = ObjectInput { name: "part".into(), material: 0, positions, triangles, normals: None };
+        let input = ObjectInput::new("part", positions, triangles);
         builder.add_object(input).unwrap();
     }
     builder.finish()

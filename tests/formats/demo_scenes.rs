@@ -61,7 +61,7 @@ fn crossings(scene: &Scene, from: glam::Vec3) -> usize {
 fn camera_and_lights_of_the_courtyard_stand_in_the_open() {
     let scene = load("courtyard.glb");
     for light in &scene.lights {
-        assert_eq!(crossings(&scene, light.point.position) % 2, 0, "{}", light.name);
+        assert_eq!(crossings(&scene, light.position().homogeneous().0) % 2, 0, "{}", light.name);
     }
     assert_eq!(crossings(&scene, scene.cameras[0].origin) % 2, 0);
     // The knot is in the picture, and the courtyard fills all of it.

@@ -2,6 +2,7 @@
 
 use crate::fixtures::{Folder, data_uri, floats, triangle, triangle_bytes, triangle_glb};
 use crate::{corners, warned};
+use lightbuffer::scene::Emitter;
 use lightbuffer::scene::{Scene, formats};
 use serde_json::{Value, json};
 
@@ -206,11 +207,16 @@ fn point_lights_are_placed_and_others_named() {
         json!([{ "mesh": 0 }, shine(0, 1.0), shine(0, 2.0), shine(1, 0.0), shine(2, 0.0), shine(3, 4.0)]);
     document["scenes"][0]["nodes"] = json!([0, 1, 2, 3, 4, 5]);
     let scene = load(&document);
-    let names: Vec<_> = scene.lights.iter().map(|l| (l.name.as_str(), l.point.position.x)).collect();
+    let names: Vec<_> =
+        scene.lights.iter().map(|l| (l.name.as_str(), l.position().homogeneous().0.x)).collect();
     assert_eq!(names, [("lamp", 1.0), ("lamp-2", 2.0), ("light-3", 4.0)]);
-    assert_eq!(scene.lights[0].point.intensity, [8.0, 4.0, 0.0]);
-    assert_eq!(scene.lights[0].point.range, Some(20.0));
-    assert_eq!((scene.lights[2].point.intensity, scene.lights[2].point.range), ([1.0; 3], None));
+    assert_eq!(scene.lights[0].strength(), [8.0, 4.0, 0.0]);
+    let range = |light: usize| match &scene.lights[light].emitter {
+        Emitter::Point(light) => light.range,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(range(0), Some(20.0));
+    assert_eq!((scene.lights[2].strength(), range(2)), ([1.0; 3], None));
     warned(&scene, "directional lights are not supported yet (sun)");
     assert_eq!(warned(&scene, "spot lights are not supported yet (torch)"), 2);
 }

@@ -12,13 +12,7 @@ fn scene(triangles: &[[[i8; 3]; 3]]) -> Scene {
     let mut builder = SceneBuilder::new("test");
     for corners in triangles {
         let positions = corners.map(|p| Vec3::from(p.map(f32::from))).to_vec();
-        let input = ObjectInput {
-            name: "t".into(),
-            material: 0,
-            positions,
-            triangles: vec![[0, 1, 2]],
-            normals: None,
-        };
+        let input = ObjectInput::new("t", positions, vec![[0, 1, 2]]);
         builder.add_object(input).unwrap();
     }
     builder.finish()
@@ -164,9 +158,7 @@ fn a_convex_solid_of_many_triangles_darkens_a_cell_that_none_of_them_covers() {
     positions.extend([Vec3::new(0.0, 0.0, 2.0), Vec3::new(0.0, 0.0, 6.0)]);
     let triangles = (0..4u32).flat_map(|i| [[i, (i + 1) % 4, 4], [i, (i + 1) % 4, 5]]).collect();
     let mut builder = SceneBuilder::new("octahedron");
-    builder
-        .add_object(ObjectInput { name: "o".into(), material: 0, positions, triangles, normals: None })
-        .unwrap();
+    builder.add_object(ObjectInput::new("o", positions, triangles)).unwrap();
     let scene = builder.finish();
     let index = SceneIndex::new(&scene);
     // With odd R the central cell straddles all four front triangles.
@@ -191,9 +183,7 @@ fn the_base_surface_is_not_tested() {
     let positions = corners.map(|p: [i8; 3]| Vec3::from(p.map(f32::from))).to_vec();
     let mut builder = SceneBuilder::new("two");
     let triangles = vec![[0, 1, 2], [3, 4, 5]];
-    builder
-        .add_object(ObjectInput { name: "two".into(), material: 0, positions, triangles, normals: None })
-        .unwrap();
+    builder.add_object(ObjectInput::new("two", positions, triangles)).unwrap();
     let scene = builder.finish();
     let index = SceneIndex::new(&scene);
     assert_eq!(index.convexity, [None]);
@@ -214,9 +204,7 @@ fn a_convex_solid_does_not_test_itself() {
         Vec3::new(-1.0, -2.0, 4.0),
     ];
     let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 2, 3]];
-    builder
-        .add_object(ObjectInput { name: "t".into(), material: 0, positions, triangles, normals: None })
-        .unwrap();
+    builder.add_object(ObjectInput::new("t", positions, triangles)).unwrap();
     let scene = builder.finish();
     let index = SceneIndex::new(&scene);
     let buffer = build(&scene, &index, 1);

@@ -45,5 +45,5 @@ pub(super) fn read(document: &Document, placed: &Placed, index: u64) -> Result<S
     if !position.is_finite() {
         return Err(at("its position is out of range".into()));
     }
-    Ok(Shining::Point(Light { name, point: PointLight { position, intensity, range } }))
+    Ok(Shining::Point(Light::point(name, PointLight { position, intensity, range })))
 }

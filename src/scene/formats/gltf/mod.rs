@@ -202,12 +202,10 @@ impl Meshes<'_> {
             let instance = geometry.place(&place.world);
             findings.normals_replaced += instance.normals_replaced;
             let input = ObjectInput {
-                name: name.clone(),
                 // The scene's material 0 is the default, the document's own come after it.
                 material: primitive.material.map_or(0, |material| material as u32 + 1),
-                positions: instance.positions,
-                triangles: instance.triangles,
                 normals: instance.normals,
+                ..ObjectInput::new(name.clone(), instance.positions, instance.triangles)
             };
             builder
                 .add_object(input)

@@ -236,7 +236,7 @@ fn object(
     });
     // `tobj`'s index 0 is the library's first material; 0 of the scene is the default.
     let material = mesh.material_id.map_or(0, |index| index as u32 + 1);
-    Ok(ObjectInput { name, material, positions, triangles, normals })
+    Ok(ObjectInput { material, normals, ..ObjectInput::new(name, positions, triangles) })
 }
 
 fn warn(
