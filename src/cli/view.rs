@@ -4,7 +4,7 @@ use super::options::ViewOptions;
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::geometry::LightPosition;
-use crate::scene::{Camera, Framing, Light, PointLight, Scene, formats, frame};
+use crate::scene::{Camera, Falloff, Framing, Light, PointLight, Scene, formats, frame};
 use crate::shadow::facing::Sides;
 use crate::visibility::{FirstHits, VisibleSurfaces, t_buffer};
 use glam::Vec3;
@@ -90,7 +90,7 @@ fn replace_lights(scene: &mut Scene, options: &ViewOptions) -> Result<()> {
     let share = 3.0 / positions.len() as f32;
     let light = |(i, &position): (usize, &Vec3)| {
         let strength = (share * (position - centre).length_squared()).max(f32::MIN_POSITIVE);
-        let point = PointLight { position, intensity: [strength; 3], range: None };
+        let point = PointLight { position, intensity: [strength; 3], falloff: Falloff::InverseSquare };
         Light::point(format!("light-{}", i + 1), point)
     };
     scene.lights = positions.iter().enumerate().map(light).collect();

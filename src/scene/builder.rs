@@ -208,7 +208,7 @@ fn is_degenerate(points: [Vec3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::PointLight;
+    use crate::scene::{Falloff, PointLight};
 
     fn object(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> ObjectInput {
         ObjectInput::new("test", positions.iter().map(|&p| Vec3::from(p)).collect(), triangles.to_vec())
@@ -231,7 +231,10 @@ mod tests {
     fn lights_of_one_name_are_numbered_in_order() {
         let mut builder = SceneBuilder::new("test");
         let light = |name: &str| {
-            Light::point(name, PointLight { position: Vec3::ZERO, intensity: [1.0; 3], range: None })
+            Light::point(
+                name,
+                PointLight { position: Vec3::ZERO, intensity: [1.0; 3], falloff: Falloff::InverseSquare },
+            )
         };
         for name in ["a", "a-2", "a", "a", "b"] {
             builder.add_light(light(name));

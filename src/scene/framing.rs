@@ -1,6 +1,6 @@
 //! A camera, a key light and a floor for a scene that comes without them.
 
-use super::{Camera, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder};
+use super::{Camera, Falloff, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder};
 use crate::error::{Error, Result};
 use glam::Vec3;
 
@@ -57,7 +57,7 @@ pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
             PointLight {
                 position: centre + offset,
                 intensity: [strength, strength * 0.97, strength * 0.92],
-                range: None,
+                falloff: Falloff::InverseSquare,
             },
         ));
         added.push("light `key`".into());

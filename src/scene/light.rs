@@ -30,8 +30,19 @@ pub struct PointLight {
     pub position: Vec3,
     /// Radiant intensity (power per solid angle).
     pub intensity: [f32; 3],
-    /// Distance at which glTF's attenuation reaches zero; `None` is the plain inverse square.
-    pub range: Option<f32>,
+    /// How its light thins out with distance.
+    pub falloff: Falloff,
+}
+
+/// How light thins out with distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Falloff {
+    /// With the square of the distance, as in nature.
+    InverseSquare,
+    /// With the square of the distance, down to nothing at this distance, by glTF's rule; above 0.
+    Range(f32),
+    /// Not at all, as in both papers and NFF: what is said as intensity is the irradiance at any distance.
+    Constant,
 }
 
 /// A point light that shines into a cone.

@@ -14,7 +14,7 @@ mod material;
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
 pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
-pub use light::{Cone, DirectionalLight, Emitter, Light, PointLight, SpotLight};
+pub use light::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, SpotLight};
 pub use material::Material;
 
 use glam::Vec3;

@@ -1,6 +1,6 @@
 //! What a light sends to a point, by the rules of `KHR_lights_punctual`.
 
-use crate::scene::{Cone, DirectionalLight, Emitter, Light, PointLight};
+use crate::scene::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight};
 use glam::DVec3;
 
 /// Light that arrives at a point.
@@ -16,8 +16,8 @@ pub struct LightSample {
 /// outwards, outside its cone, and at the light itself, where no direction is.
 ///
 /// Attenuation is that of `KHR_lights_punctual`: `1 / d^2`, and with a range
-/// `max(min(1 - (d / range)^4, 1), 0) / d^2`; in a cone by the square of how far the cosine has come from
-/// the outer to the inner one.
+/// `max(min(1 - (d / range)^4, 1), 0) / d^2`, unless the light has none; in a cone by the square of how far
+/// the cosine has come from the outer to the inner one.
 pub fn sample_light(light: &Light, point: DVec3) -> Option<LightSample> {
     match &light.emitter {
         Emitter::Point(light) => sample_point(light, point),
@@ -47,7 +47,12 @@ fn sample_directional(light: &DirectionalLight) -> LightSample {
 fn sample_point(light: &PointLight, point: DVec3) -> Option<LightSample> {
     let offset = light.position.as_dvec3() - point;
     let squared = offset.length_squared();
-    let attenuation = window(squared, light.range) / squared;
+    let attenuation = match light.falloff {
+        Falloff::InverseSquare => 1.0 / squared,
+        Falloff::Range(range) => window(squared, f64::from(range)) / squared,
+        // Divided all the same, so that there is none where no direction is.
+        Falloff::Constant => squared / squared,
+    };
     if !(attenuation > 0.0 && attenuation.is_finite()) {
         return None;
     }
@@ -58,8 +63,7 @@ fn sample_point(light: &PointLight, point: DVec3) -> Option<LightSample> {
 }
 
 /// 1 near the light, 0 from the range outwards.
-fn window(squared_distance: f64, range: Option<f32>) -> f64 {
-    let Some(range) = range.map(f64::from) else { return 1.0 };
+fn window(squared_distance: f64, range: f64) -> f64 {
     let ratio = squared_distance / (range * range);
     (1.0 - ratio * ratio).clamp(0.0, 1.0)
 }
@@ -71,22 +75,22 @@ mod tests {
     use approx::assert_relative_eq;
     use glam::Vec3;
 
-    fn point_light(range: Option<f32>) -> PointLight {
-        PointLight { position: Vec3::new(0.0, 2.0, 0.0), intensity: [8.0, 4.0, 1.0], range }
+    fn point_light(falloff: Falloff) -> PointLight {
+        PointLight { position: Vec3::new(0.0, 2.0, 0.0), intensity: [8.0, 4.0, 1.0], falloff }
     }
 
-    fn light(range: Option<f32>) -> Light {
-        Light::point("test", point_light(range))
+    fn light(falloff: Falloff) -> Light {
+        Light::point("test", point_light(falloff))
     }
 
     #[test]
     fn a_spot_light_fades_from_its_inner_to_its_outer_cone() {
         let cone = Cone { axis: Vec3::new(0.0, -3.0, 0.0), cos_inner: 0.8, cos_outer: 0.6 };
-        let spot = SpotLight { point: point_light(None), cone };
+        let spot = SpotLight { point: point_light(Falloff::InverseSquare), cone };
         let spot = Light { name: "spot".into(), emitter: Emitter::Spot(spot) };
         let share = |x: f64| {
             let point = DVec3::new(x, 0.0, 0.0);
-            let all = sample_light(&light(None), point).unwrap().irradiance[0];
+            let all = sample_light(&light(Falloff::InverseSquare), point).unwrap().irradiance[0];
             sample_light(&spot, point).map(|sample| sample.irradiance[0] / all)
         };
         assert_eq!(share(0.0), Some(1.0));
@@ -109,22 +113,28 @@ mod tests {
 
     #[test]
     fn without_a_range_it_is_the_inverse_square() {
-        let sample = sample_light(&light(None), DVec3::ZERO).unwrap();
+        let sample = sample_light(&light(Falloff::InverseSquare), DVec3::ZERO).unwrap();
         assert_eq!(sample.towards, DVec3::Y);
         assert_eq!(sample.irradiance, [2.0, 1.0, 0.25]);
     }
 
     #[test]
     fn with_a_range_it_fades_as_the_gltf_extension_says() {
-        let half_way = sample_light(&light(Some(4.0)), DVec3::ZERO).unwrap();
+        let half_way = sample_light(&light(Falloff::Range(4.0)), DVec3::ZERO).unwrap();
         assert_relative_eq!(half_way.irradiance[0], 2.0 * (1.0 - 1.0 / 16.0));
-        assert_eq!(sample_light(&light(Some(2.0)), DVec3::ZERO), None);
-        assert_eq!(sample_light(&light(Some(1.0)), DVec3::ZERO), None);
+        assert_eq!(sample_light(&light(Falloff::Range(2.0)), DVec3::ZERO), None);
+        assert_eq!(sample_light(&light(Falloff::Range(1.0)), DVec3::ZERO), None);
+    }
+
+    #[test]
+    fn without_falloff_it_is_the_same_at_every_distance() {
+        let far = sample_light(&light(Falloff::Constant), DVec3::new(0.0, -1e9, 0.0)).unwrap();
+        assert_eq!(far.irradiance, [8.0, 4.0, 1.0]);
     }
 
     #[test]
     fn at_the_light_itself_there_is_none() {
-        assert_eq!(sample_light(&light(None), DVec3::new(0.0, 2.0, 0.0)), None);
-        assert_eq!(sample_light(&light(Some(0.0)), DVec3::ZERO), None);
+        assert_eq!(sample_light(&light(Falloff::InverseSquare), DVec3::new(0.0, 2.0, 0.0)), None);
+        assert_eq!(sample_light(&light(Falloff::Constant), DVec3::ZERO), None);
     }
 }

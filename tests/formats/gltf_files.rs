@@ -2,7 +2,7 @@
 
 use crate::fixtures::{Folder, data_uri, floats, triangle, triangle_bytes, triangle_glb};
 use crate::{corners, warned};
-use lightbuffer::scene::Emitter;
+use lightbuffer::scene::{Emitter, Falloff};
 use lightbuffer::scene::{Scene, formats};
 use serde_json::{Value, json};
 
@@ -211,12 +211,12 @@ fn point_lights_are_placed_and_others_named() {
         scene.lights.iter().map(|l| (l.name.as_str(), l.position().homogeneous().0.x)).collect();
     assert_eq!(names, [("lamp", 1.0), ("lamp-2", 2.0), ("light-3", 4.0)]);
     assert_eq!(scene.lights[0].strength(), [8.0, 4.0, 0.0]);
-    let range = |light: usize| match &scene.lights[light].emitter {
-        Emitter::Point(light) => light.range,
+    let falloff = |light: usize| match &scene.lights[light].emitter {
+        Emitter::Point(light) => light.falloff,
         other => panic!("{other:?}"),
     };
-    assert_eq!(range(0), Some(20.0));
-    assert_eq!((scene.lights[2].strength(), range(2)), ([1.0; 3], None));
+    assert_eq!(falloff(0), Falloff::Range(20.0));
+    assert_eq!((scene.lights[2].strength(), falloff(2)), ([1.0; 3], Falloff::InverseSquare));
     warned(&scene, "directional lights are not supported yet (sun)");
     assert_eq!(warned(&scene, "spot lights are not supported yet (torch)"), 2);
 }

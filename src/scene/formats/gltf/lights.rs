@@ -3,7 +3,7 @@
 use super::nodes::Placed;
 use super::schema::{Document, LightEntry};
 use crate::scene::formats::text::printable;
-use crate::scene::{Light, PointLight};
+use crate::scene::{Falloff, Light, PointLight};
 
 /// What a node shines with.
 pub(super) enum Shining {
@@ -37,13 +37,14 @@ pub(super) fn read(document: &Document, placed: &Placed, index: u64) -> Result<S
     if !intensity.iter().all(|channel| *channel >= 0.0 && channel.is_finite()) {
         return Err(at("expected a colour and an intensity from 0 up".into()));
     }
-    let range = entry.range.map(|range| range as f32);
-    if range.is_some_and(|range| !(range > 0.0 && range.is_finite())) {
-        return Err(at("expected a range above 0".into()));
-    }
+    let falloff = match entry.range.map(|range| range as f32) {
+        None => Falloff::InverseSquare,
+        Some(range) if range > 0.0 && range.is_finite() => Falloff::Range(range),
+        Some(_) => return Err(at("expected a range above 0".into())),
+    };
     let position = placed.world.translation.as_vec3();
     if !position.is_finite() {
         return Err(at("its position is out of range".into()));
     }
-    Ok(Shining::Point(Light::point(name, PointLight { position, intensity, range })))
+    Ok(Shining::Point(Light::point(name, PointLight { position, intensity, falloff })))
 }
