@@ -44,6 +44,7 @@
 //!
 //! ```
 //! use glam::Vec3;
+//! use lightbuffer::geometry::LightPosition;
 //! use lightbuffer::scene::{ObjectInput, SceneBuilder};
 //! use lightbuffer::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, find};
 //! use lightbuffer::SurfacePoint;
@@ -60,7 +61,7 @@
 //! let tester = (find("light-buffer")?.build)(&BuildInput {
 //!     scene: &scene,
 //!     index: &index,
-//!     light: Vec3::new(0.0, 2.0, 0.0),
+//!     light: LightPosition::At(Vec3::new(0.0, 2.0, 0.0)),
 //!     resolution: Resolution::Auto,
 //!     receivers: Receivers::Anywhere,
 //!     embree: EmbreeSettings { epsilon: 0.0, threads: 1 },

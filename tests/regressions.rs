@@ -1,6 +1,7 @@
 //! Wrong answers of the past, each with the input that showed it.
 
 use glam::Vec3;
+use lightbuffer::geometry::LightPosition;
 use lightbuffer::geometry::batch::InstructionSet;
 use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, frame};
 use lightbuffer::shadow::brute_force::BruteForce;
@@ -26,7 +27,8 @@ fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
 }
 
 /// Every tester says what the definition says.
-fn all_agree(scene: &Scene, light: Vec3, points: &[SurfacePoint], receivers: Receivers) {
+fn all_agree(scene: &Scene, light: impl Into<LightPosition>, points: &[SurfacePoint], receivers: Receivers) {
+    let light = light.into();
     let plain = PlainTest::new(scene, light, points);
     let truth: Vec<bool> = points.iter().map(|p| plain.decide(p) == Occlusion::Occluded).collect();
     let index = SceneIndex::new(scene);

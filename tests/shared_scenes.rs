@@ -78,16 +78,14 @@ impl View {
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
         let eye = Sides::of(&self.scene, self.camera.origin);
         let lights = self.scene.lights.iter();
-        lights
-            .map(|light| Queries::new(&self.scene, &visible, light.position().homogeneous().0, &eye))
-            .collect()
+        lights.map(|light| Queries::new(&self.scene, &visible, light, &eye)).collect()
     }
 
     fn input(&self, light: usize, resolution: Resolution) -> BuildInput<'_> {
         BuildInput {
             scene: &self.scene,
             index: &self.index,
-            light: self.scene.lights[light].position().homogeneous().0,
+            light: self.scene.lights[light].position(),
             resolution,
             receivers: Receivers::Surfaces,
             embree: EmbreeSettings { epsilon: 1e-4, threads: rayon::current_num_threads() },

@@ -1,6 +1,7 @@
 //! Options that commands share, and how their values are written.
 
 use crate::error::{Error, Result};
+use crate::geometry::LightPosition;
 use crate::scene::{ImageSize, Scene};
 use crate::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex};
 use clap::Args;
@@ -59,7 +60,12 @@ pub struct RunOptions {
 
 impl RunOptions {
     /// What testers of one light are built from, for the surfaces that a camera sees.
-    pub fn build_input<'a>(&self, scene: &'a Scene, index: &'a SceneIndex, light: Vec3) -> BuildInput<'a> {
+    pub fn build_input<'a>(
+        &self,
+        scene: &'a Scene,
+        index: &'a SceneIndex,
+        light: LightPosition,
+    ) -> BuildInput<'a> {
         BuildInput {
             scene,
             index,

@@ -32,6 +32,9 @@ pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> R
             for (&pixel, &occluded) in queries.pixels.iter().zip(&run.occluded) {
                 sees[point_of_pixel[pixel as usize] as usize] = !occluded;
             }
+            for &pixel in &queries.not_receiving {
+                sees[point_of_pixel[pixel as usize] as usize] = true;
+            }
             sees
         })
         .collect();

@@ -2,7 +2,7 @@
 
 use super::options::{RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
-use super::view::{self, Seen, View};
+use super::view::{Seen, View};
 use super::{Outcome, output, picture, validate};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr};
@@ -58,6 +58,8 @@ struct LightFacts {
     name: String,
     queries: u64,
     facing_away: u64,
+    outside_cone: u64,
+    not_receiving: u64,
     shadowed: u64,
     build_seconds: f64,
     ns_per_query: f64,
@@ -88,8 +90,8 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     }
     let mut lights = Vec::new();
     for light in &view.scene.lights {
-        let position = view::supported_position(light)?;
-        let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
+        let position = light.position();
+        let queries = Queries::new(&view.scene, &seen.visible, light, &seen.eye);
         let input = args.run.build_input(&view.scene, &index, position);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = if args.no_verdict {
@@ -164,6 +166,8 @@ fn write(
         name: light.name.clone(),
         queries: queries.points.len() as u64,
         facing_away: queries.facing_away.len() as u64,
+        outside_cone: queries.outside_cone.len() as u64,
+        not_receiving: queries.not_receiving.len() as u64,
         shadowed: run.occluded.iter().filter(|&&o| o).count() as u64,
         build_seconds: run.build_seconds,
         ns_per_query: run.ns_per_query,

@@ -3,7 +3,7 @@
 use super::Outcome;
 use super::options::{RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
-use super::view::{self, Seen, View};
+use super::view::{Seen, View};
 use super::{output, picture};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
@@ -47,7 +47,8 @@ Channels of the OpenEXR file beside R G B A, Z, P.*, N.*, albedo.* and id.object
   shadow.LIGHT.difference  the tester of --shadow against Embree: +1 only the tester says occluded
                            (false shadow, were Embree right), -1 only Embree does (false light)
   shadow.LIGHT.verdict     against the truth: 0 background, 1 faces away, 2 lit, 3 occluded,
-                           4 tester wrong, 5 Embree wrong, 6 both wrong; plus 10 where the segment
+                           4 tester wrong, 5 Embree wrong, 6 both wrong, 7 outside the cone of a spot
+                           light, 8 on an object that receives no shadows; plus 10 where the segment
                            touches";
 
 pub fn run(args: &Args) -> Result<Outcome> {
@@ -92,14 +93,13 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     };
     let mut judged = Vec::new();
     for light in &view.scene.lights {
-        let position = view::supported_position(light)?;
-        let queries = Queries::new(&view.scene, &seen.visible, position, &seen.eye);
+        let position = light.position();
+        let queries = Queries::new(&view.scene, &seen.visible, light, &seen.eye);
         let input = args.run.build_input(&view.scene, &index, position);
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let verdict = judge(&input, &queries, &fitting, &bars)?;
-        let facing_away = queries.facing_away.len() as u64;
-        let mut entry = LightReport::new(&light.name, queries.points.len() as u64, facing_away, &verdict);
+        let mut entry = LightReport::new(&light.name, &queries, &verdict);
         if args.check_arbiter > 0 {
             bars.stage("arbiter against integers");
             let most = args.check_arbiter;

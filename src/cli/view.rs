@@ -3,7 +3,6 @@
 use super::options::ViewOptions;
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
-use crate::geometry::LightPosition;
 use crate::scene::{Camera, Falloff, Framing, Light, PointLight, Scene, formats, frame};
 use crate::shadow::facing::Sides;
 use crate::visibility::{FirstHits, VisibleSurfaces, t_buffer};
@@ -98,19 +97,6 @@ fn replace_lights(scene: &mut Scene, options: &ViewOptions) -> Result<()> {
     match scene.lights.iter().find(|l| !is_finite(l)) {
         Some(light) => Err(Error::Usage(format!("{}: too far from the scene for 32-bit floats", light.name))),
         None => Ok(()),
-    }
-}
-
-/// The position of a light that testers can be asked about.
-///
-/// # Errors
-/// [`Error::Usage`] for a light that is infinitely far away.
-pub fn supported_position(light: &Light) -> Result<Vec3> {
-    match light.position() {
-        LightPosition::At(point) => Ok(point),
-        LightPosition::Towards(_) => {
-            Err(Error::Usage(format!("light {}: directional lights are not supported yet", light.name)))
-        }
     }
 }
 

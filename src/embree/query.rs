@@ -2,6 +2,7 @@
 
 use std::mem::offset_of;
 
+use super::scene::LARGEST_COORDINATE;
 use super::{TriangleScene, call, ffi};
 use crate::{Error, Result};
 
@@ -14,10 +15,11 @@ use crate::{Error, Result};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct ShadowRay {
+    /// Coordinates of magnitude below 1.844e18, as everywhere in Embree.
     pub origin: [f32; 3],
     /// At least 0, finite: the epsilon, in units of the direction's length.
     pub t_near: f32,
-    /// Not zero.
+    /// Not zero; of the same range. Debian's Embree ends the program over a ray beyond it.
     pub direction: [f32; 3],
     /// At least 0; may be infinite.
     pub t_far: f32,
@@ -57,10 +59,12 @@ impl ShadowRay {
     pub const NO_TRIANGLE: u32 = u32::MAX;
 
     fn is_valid(&self) -> bool {
-        let finite = |[x, y, z]: [f32; 3]| x.is_finite() & y.is_finite() & z.is_finite();
+        let in_range = |[x, y, z]: [f32; 3]| {
+            (x.abs() < LARGEST_COORDINATE) & (y.abs() < LARGEST_COORDINATE) & (z.abs() < LARGEST_COORDINATE)
+        };
         let [x, y, z] = self.direction;
-        finite(self.origin)
-            & finite(self.direction)
+        in_range(self.origin)
+            & in_range(self.direction)
             & ((x != 0.0) | (y != 0.0) | (z != 0.0))
             & (self.t_near >= 0.0)
             & self.t_near.is_finite()
@@ -80,7 +84,8 @@ pub struct CheckedRays<'a>(&'a [ShadowRay]);
 impl<'a> CheckedRays<'a> {
     /// # Errors
     ///
-    /// The first ray that is not as [`ShadowRay`] says: not finite, without direction, or with a negative end.
+    /// The first ray that is not as [`ShadowRay`] says: not finite or beyond Embree's range, without direction,
+    /// or with a negative end.
     pub fn new(rays: &'a [ShadowRay]) -> Result<CheckedRays<'a>> {
         // All of them without a branch, because nearly always all are valid.
         if rays.iter().fold(true, |valid, ray| valid & ray.is_valid()) {

@@ -6,7 +6,7 @@ use super::{Device, call, ffi};
 use crate::{Error, Result};
 
 /// Embree leaves out, and says nothing of, triangles with a coordinate of this magnitude or more.
-const LARGEST_COORDINATE: f32 = 1.844e18;
+pub(super) const LARGEST_COORDINATE: f32 = 1.844e18;
 
 /// How Embree traverses and intersects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

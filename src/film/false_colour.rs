@@ -20,17 +20,33 @@ pub struct Category {
     pub colour: [u8; 3],
     /// Whether single pixels of it must catch the eye.
     pub marking: Marking,
+    /// When the legend lists it.
+    pub listed: Listed,
+}
+
+/// When a legend lists a category.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Listed {
+    /// Always: that there is none of it says something.
+    Always,
+    /// Only if the map has a pixel of it.
+    IfPresent,
 }
 
 impl Category {
     /// A category that is never marked.
     pub fn plain(label: impl Into<String>, colour: [u8; 3]) -> Category {
-        Category { label: label.into(), colour, marking: Marking::Never }
+        Category { label: label.into(), colour, marking: Marking::Never, listed: Listed::Always }
+    }
+
+    /// A category that is never marked, and listed only where there is some of it.
+    pub fn if_present(label: impl Into<String>, colour: [u8; 3]) -> Category {
+        Category { listed: Listed::IfPresent, ..Category::plain(label, colour) }
     }
 
     /// A category that is ringed when it is rare.
     pub fn marked_when_rare(label: impl Into<String>, colour: [u8; 3]) -> Category {
-        Category { label: label.into(), colour, marking: Marking::WhenRare }
+        Category { marking: Marking::WhenRare, ..Category::plain(label, colour) }
     }
 }
 
@@ -79,8 +95,12 @@ impl CategoryMap {
     /// pixel, with rings around rare categories that want them; the legend is below.
     pub fn render(&self) -> (ImageSize, Vec<u8>) {
         let entries: Vec<Entry> = (0..self.legend.len()).map(|class| self.entry(class)).collect();
+        let is_listed =
+            |&class: &usize| self.legend[class].listed == Listed::Always || self.counts[class] > 0;
+        let listed: Vec<Entry> =
+            (0..self.legend.len()).filter(is_listed).map(|class| self.entry(class)).collect();
         let width = self.size.width.max(NARROWEST);
-        let layout = Layout::new(width, &self.title, &entries);
+        let layout = Layout::new(width, &self.title, &listed);
         let mut canvas = legend::blank(ImageSize { width, height: self.size.height + layout.height() });
         self.draw_image(&mut canvas);
         if entries.iter().any(|entry| entry.ringed) {
@@ -89,7 +109,7 @@ impl CategoryMap {
                 entry.ringed.then_some(entry.colour)
             });
         }
-        legend::draw(&mut canvas, &layout, self.size.height, &entries);
+        legend::draw(&mut canvas, &layout, self.size.height, &listed);
         canvas.into_rgb()
     }
 

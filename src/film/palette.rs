@@ -29,3 +29,7 @@ pub const FACING_AWAY: [u8; 3] = [58, 58, 64];
 pub const SHADOWED: [u8; 3] = [104, 104, 112];
 /// Lit.
 pub const LIT: [u8; 3] = [208, 208, 212];
+/// Outside the cone of a spot light.
+pub const OUTSIDE_CONE: [u8; 3] = [40, 40, 46];
+/// Lit because it receives no shadows.
+pub const NOT_RECEIVING: [u8; 3] = [236, 236, 240];

@@ -179,18 +179,18 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform3(-3i8..4), 1..17),
             live in any::<u16>(),
         ) {
-            let light = Vec3::new(0.25, 0.5, 3.0);
+            let light = Vec3::new(0.25, 0.5, 3.0).into();
             let triangles: Vec<LightTriangle> = corners
                 .iter()
                 .map(|c| c.map(f32::from))
                 .filter_map(|c| {
                     let corner = |i: usize| Vec3::new(c[i], c[i + 1], c[i + 2]);
-                    LightTriangle::new(light, [corner(0), corner(3), corner(6)])
+                    LightTriangle::new(&light, [corner(0), corner(3), corner(6)])
                 })
                 .collect();
             let points: Vec<LightPoint> = points
                 .iter()
-                .map(|p| LightPoint::new(light, Vec3::from(p.map(f32::from)).as_dvec3()))
+                .map(|p| LightPoint::new(&light, Vec3::from(p.map(f32::from)).as_dvec3()))
                 .collect();
             let live = live & (u32::MAX >> (32 - points.len())) as u16;
             let expected: Vec<Stop> = triangles

@@ -2,7 +2,7 @@
 //! paper).
 
 use super::Sign;
-use super::light_triangle::orientation;
+use super::planes::orientation;
 use glam::Vec3;
 use std::collections::HashMap;
 

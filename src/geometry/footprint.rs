@@ -1,16 +1,16 @@
 //! Which boxes of a grid a triangle's projection can touch: a superset, row by row.
 //!
-//! The grid lies on the plane z = 1 in front of an apex. Light buffers ask for cells (boxes that tile the
-//! face of the cube), t-buffers for pixel centres (boxes as wide as the rounding of the ray). A box is
+//! The grid lies on the plane z = 1 in front of an apex, or across parallel lines. Light buffers ask for
+//! cells (boxes that tile the face of the cube), t-buffers for pixel centres (boxes as wide as the rounding of the ray). A box is
 //! marked unless one of the lines of its edges or of the triangle's certainly separates the two, which is
 //! the exact overlap of convex polygons, widened by rounding: the modified scan line of the 1986 paper
 //! without its cases.
 
 use super::ROUNDOFF;
-use super::light_triangle::{OrientedPlanes, Plane};
+use super::planes::{OrientedPlanes, Plane};
 use glam::DVec3;
 
-/// A grid of boxes on the plane z = 1. Steps may be negative.
+/// A grid of boxes on the plane of projection. Steps may be negative.
 #[derive(Debug, Clone, Copy)]
 pub struct Grid {
     /// Centre of box (0, 0).
@@ -36,23 +36,45 @@ impl Grid {
     }
 }
 
-/// Where x, y and z of the grid point in world space. The axes need not be orthogonal.
+/// Where x, y and z of the grid point in world space, and how points are projected on it. The axes need not
+/// be orthogonal.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame {
     axes: [DVec3; 3],
     /// Rows of the inverse matrix: coordinates of a vector in the frame.
     dual: [DVec3; 3],
+    projection: Projection,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Projection {
+    /// From the origin on the plane z = 1.
+    Perspective,
+    /// Along z.
+    Parallel,
 }
 
 impl Frame {
-    /// A frame of linearly independent axes.
-    pub fn new(x: DVec3, y: DVec3, z: DVec3) -> Frame {
+    /// Linearly independent axes, for a projection from the origin.
+    pub fn perspective(x: DVec3, y: DVec3, z: DVec3) -> Frame {
         let volume = x.dot(y.cross(z));
-        Frame { axes: [x, y, z], dual: [y.cross(z) / volume, z.cross(x) / volume, x.cross(y) / volume] }
+        let dual = [y.cross(z) / volume, z.cross(x) / volume, x.cross(y) / volume];
+        Frame { axes: [x, y, z], dual, projection: Projection::Perspective }
+    }
+
+    /// Axes for a projection along the third, with their inverse: each of its coefficients may be wrong by
+    /// four roundoffs.
+    pub fn parallel(axes: [DVec3; 3], dual: [DVec3; 3]) -> Frame {
+        Frame { axes, dual, projection: Projection::Parallel }
     }
 
     fn coordinates(&self, v: DVec3) -> DVec3 {
         DVec3::new(self.dual[0].dot(v), self.dual[1].dot(v), self.dual[2].dot(v))
+    }
+
+    /// How far the coordinates of a vector may be off whose own are wrong by one roundoff.
+    fn coordinate_error(&self, v: DVec3) -> DVec3 {
+        DVec3::from_array(self.dual.map(|row| row.abs().dot(v.abs()))) * (16.0 * ROUNDOFF)
     }
 }
 
@@ -66,12 +88,22 @@ struct Linear {
 }
 
 impl Linear {
-    /// Roundoff of the plane, of the frame's scalar products and of evaluation, relative to the terms.
-    fn new(plane: &Plane, frame: &Frame, reach: [f64; 2]) -> Linear {
+    /// The plane through an edge. Roundoff of the plane, of the frame's scalar products and of evaluation,
+    /// relative to the terms.
+    fn edge(plane: &Plane, (offset, offset_error): (f64, f64), frame: &Frame, reach: [f64; 2]) -> Linear {
         let [a, b, c] = frame.axes.map(|axis| axis.dot(plane.normal));
         let size = frame.axes.map(|axis| axis.abs().dot(plane.size));
-        let slack = 32.0 * ROUNDOFF * (size[0] * reach[0] + size[1] * reach[1] + size[2]);
-        Linear { a, b, c, slack: slack + f64::MIN_POSITIVE }
+        match frame.projection {
+            Projection::Perspective => {
+                let slack = 32.0 * ROUNDOFF * (size[0] * reach[0] + size[1] * reach[1] + size[2]);
+                Linear { a, b, c, slack: slack + f64::MIN_POSITIVE }
+            }
+            // The plane holds the direction of z.
+            Projection::Parallel => {
+                let slack = 32.0 * ROUNDOFF * (size[0] * reach[0] + size[1] * reach[1] + offset.abs());
+                Linear { a, b, c: -offset, slack: slack + 2.0 * offset_error + f64::MIN_POSITIVE }
+            }
+        }
     }
 
     /// Value at a box's centre, and how far it can change inside the box, slack included.
@@ -85,13 +117,65 @@ impl Linear {
 #[derive(Debug, Clone, Copy)]
 pub struct Footprint {
     edges: [Linear; 3],
-    own: Linear,
-    height: (f64, f64),
+    depth: Depth,
     /// First and last column and row that the projection can touch.
     columns: [u32; 2],
     rows: [u32; 2],
-    /// Bounds of z over the part of the triangle inside the grid's frustum.
+    /// Bounds of z over the part of the triangle that projects on the grid.
     z_range: [f64; 2],
+}
+
+/// z on a triangle's own plane, over the grid.
+#[derive(Debug, Clone, Copy)]
+enum Depth {
+    /// The height (with the bound of its error) divided by a linear function.
+    Perspective { slope: Linear, height: (f64, f64) },
+    /// The linear function divided by a positive number, which is wrong by at most its error.
+    Parallel { rise: Linear, steepness: (f64, f64) },
+}
+
+impl Depth {
+    fn new(planes: &OrientedPlanes, frame: &Frame, reach: [f64; 2]) -> Depth {
+        match frame.projection {
+            Projection::Perspective => Depth::Perspective {
+                slope: Linear::edge(&planes.own, (0.0, 0.0), frame, reach),
+                height: planes.height,
+            },
+            Projection::Parallel => {
+                let down = Linear::edge(&planes.own, planes.height, frame, reach);
+                let rise = Linear { a: -down.a, b: -down.b, c: -down.c, slack: down.slack };
+                let [.., z] = frame.axes;
+                let error = 32.0 * ROUNDOFF * z.abs().dot(planes.own.size);
+                Depth::Parallel { rise, steepness: (z.dot(planes.own.normal), error) }
+            }
+        }
+    }
+
+    /// At most the least and at least the greatest z inside a box; infinite where rounding leaves it open.
+    fn over_box(&self, grid: &Grid, x: f64, y: f64) -> [f64; 2] {
+        match self {
+            Depth::Perspective { slope, height: (height, height_error) } => {
+                let (centre, spread) = slope.over_box(grid, x, y);
+                let steepest = (centre + spread) * (1.0 + 1e-14);
+                let near =
+                    if steepest > 0.0 { (height - height_error) * (1.0 - 1e-14) / steepest } else { 0.0 };
+                let flattest = (centre - spread) * (1.0 - 1e-14);
+                let far = (height + height_error) * (1.0 + 1e-14) / flattest;
+                [near, if flattest > 0.0 { far } else { f64::INFINITY }]
+            }
+            Depth::Parallel { rise, steepness: (steepness, error) } => {
+                let (centre, spread) = rise.over_box(grid, x, y);
+                if *steepness <= 2.0 * error {
+                    return [f64::NEG_INFINITY, f64::INFINITY];
+                }
+                let quotients = [centre - spread, centre + spread]
+                    .map(|value| [value / (steepness - error), value / (steepness + error)]);
+                let outwards = |value: f64, sign: f64| value + sign * value.abs() * 1e-14;
+                let [low, high] = quotients;
+                [outwards(low[0].min(low[1]), -1.0), outwards(high[0].max(high[1]), 1.0)]
+            }
+        }
+    }
 }
 
 impl Footprint {
@@ -102,14 +186,17 @@ impl Footprint {
             grid.origin[i].abs().max(last.abs()) + grid.half[i]
         });
         let corners = planes.corners.map(|u| frame.coordinates(u));
-        let clipped = Clipped::new(corners, reach)?;
+        let clipped = match frame.projection {
+            Projection::Perspective => Clipped::new(corners, reach)?,
+            Projection::Parallel => {
+                Clipped::around(corners, planes.corners.map(|u| frame.coordinate_error(u)))
+            }
+        };
         let columns = box_range(grid, 0, clipped.x)?;
         let rows = box_range(grid, 1, clipped.y)?;
-        let linear = |plane: &Plane| Linear::new(plane, frame, reach);
         Some(Footprint {
-            edges: planes.edges.each_ref().map(linear),
-            own: linear(&planes.own),
-            height: planes.height,
+            edges: [0, 1, 2].map(|i| Linear::edge(&planes.edges[i], planes.offsets[i], frame, reach)),
+            depth: Depth::new(planes, frame, reach),
             columns,
             rows,
             z_range: clipped.z,
@@ -163,17 +250,11 @@ impl Footprint {
 
     /// Bounds of z over the triangle inside one box: at most the nearest, at least the farthest.
     ///
-    /// z = h / (N . (x, y, 1)) on the triangle's plane, clamped to the triangle itself, because a plane seen
-    /// almost edge-on runs away (row 6 of the notes on the 1986 paper).
+    /// Taken on the triangle's plane and clamped to the triangle itself, because a plane seen almost edge-on
+    /// runs away (row 6 of the notes on the 1986 paper).
     pub fn z_bounds(&self, grid: &Grid, column: u32, row: u32) -> [f64; 2] {
         let [x, y] = grid.centre(column, row);
-        let (centre, spread) = self.own.over_box(grid, x, y);
-        let (height, height_error) = self.height;
-        let steepest = (centre + spread) * (1.0 + 1e-14);
-        let near = if steepest > 0.0 { (height - height_error) * (1.0 - 1e-14) / steepest } else { 0.0 };
-        let flattest = (centre - spread) * (1.0 - 1e-14);
-        let far =
-            if flattest > 0.0 { (height + height_error) * (1.0 + 1e-14) / flattest } else { f64::INFINITY };
+        let [near, far] = self.depth.over_box(grid, x, y);
         [near.max(self.z_range[0]), far.min(self.z_range[1])]
     }
 
@@ -186,13 +267,13 @@ impl Footprint {
         })
     }
 
-    /// Whether the direction through a point of the grid plane certainly meets the triangle's interior.
+    /// Whether the line of projection through a point of the grid plane certainly meets the triangle's interior.
     pub fn contains(&self, x: f64, y: f64) -> bool {
         self.edges.iter().all(|edge| edge.a * x + edge.b * y + edge.c > edge.slack)
     }
 }
 
-/// The part of a triangle inside the grid's frustum, reduced to bounds: x / z, y / z and z.
+/// The part of a triangle that projects on the grid, reduced to bounds: of its projection, and of z.
 struct Clipped {
     x: [f64; 2],
     y: [f64; 2],
@@ -200,6 +281,18 @@ struct Clipped {
 }
 
 impl Clipped {
+    /// The whole triangle, projected along z; coordinates are wrong by at most `errors`.
+    fn around(corners: [DVec3; 3], errors: [DVec3; 3]) -> Clipped {
+        let range = |axis: usize| {
+            let ends =
+                [0, 1, 2].map(|i| (corners[i][axis] - errors[i][axis], corners[i][axis] + errors[i][axis]));
+            ends.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], end| {
+                [low.min(end.0), high.max(end.1)]
+            })
+        };
+        Clipped { x: range(0), y: range(1), z: range(2) }
+    }
+
     /// Clips against the four sides of the frustum |x| <= reach z, |y| <= reach z, each moved outwards by
     /// more than the rounding; `None` if nothing is left.
     fn new(corners: [DVec3; 3], reach: [f64; 2]) -> Option<Clipped> {

@@ -1,4 +1,4 @@
-//! Where a light is: a point of space, or infinitely far away in a direction.
+//! Where a light is, and the coordinates that everything is held against it in.
 
 use glam::Vec3;
 
@@ -25,5 +25,53 @@ impl LightPosition {
             LightPosition::At(point) => (point, 1.0),
             LightPosition::Towards(direction) => (direction, 0.0),
         }
+    }
+}
+
+/// A light and the origin of coordinates relative to it.
+///
+/// The origin takes part in no answer. It is the light itself, where most planes of a point light meet, or
+/// the middle of the casters, so that their coordinates are no larger than they must be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightSpace {
+    light: LightPosition,
+    origin: Vec3,
+    reach: f64,
+}
+
+impl LightSpace {
+    /// The space of a light over casters inside a box, given by its lowest and highest corner.
+    pub fn new(light: LightPosition, (low, high): (Vec3, Vec3)) -> LightSpace {
+        match light {
+            LightPosition::At(point) => LightSpace::from(point),
+            LightPosition::Towards(_) => {
+                let origin = low * 0.5 + high * 0.5;
+                let far = (high.as_dvec3() - origin.as_dvec3()).max(origin.as_dvec3() - low.as_dvec3());
+                LightSpace { light, origin, reach: far.element_sum() * (1.0 + 8.0 * f64::EPSILON) }
+            }
+        }
+    }
+
+    /// The light.
+    pub fn light(&self) -> LightPosition {
+        self.light
+    }
+
+    /// What coordinates are relative to, in world space.
+    pub fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
+    /// For a light infinitely far away, at least the sum of the absolute coordinates of any caster's corner
+    /// relative to the origin; 0 for a light at a point.
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+}
+
+impl From<Vec3> for LightSpace {
+    /// The space of a light at a point, which needs to know nothing of the casters.
+    fn from(point: Vec3) -> LightSpace {
+        LightSpace { light: LightPosition::At(point), origin: point, reach: 0.0 }
     }
 }

@@ -5,6 +5,7 @@
 //! is asked, and the last one is exact expansion arithmetic.
 
 pub mod batch;
+pub mod cone;
 pub mod convexity;
 mod double_double;
 pub mod expansion;
@@ -12,12 +13,13 @@ pub mod footprint;
 mod light_position;
 pub mod light_triangle;
 pub mod occlusion;
+pub mod planes;
 pub mod position;
 pub mod ray_triangle;
 mod rounding;
 mod sign;
 
-pub use light_position::LightPosition;
+pub use light_position::{LightPosition, LightSpace};
 pub use light_triangle::{Filtered, LightPoint, LightTriangle};
 pub use position::ExactPosition;
 pub use sign::Sign;

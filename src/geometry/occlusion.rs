@@ -1,9 +1,9 @@
 //! What the float filter leaves open, decided in f64 with a bound and then exactly.
 
 use super::expansion::{self, Expansion};
-use super::light_triangle::{OrientedPlanes, orientation};
+use super::planes::{OrientedPlanes, oriented};
 use super::position::{ExactPosition, HomogeneousPoint};
-use super::{ROUNDOFF, Sign};
+use super::{LightPosition, LightSpace, ROUNDOFF, Sign};
 use glam::{DVec3, Vec3};
 use std::cell::OnceCell;
 
@@ -18,7 +18,7 @@ pub enum Stage {
 
 /// One light and one point, with the exact point made when it is first needed.
 pub struct PreciseQuery<F> {
-    light: Vec3,
+    space: LightSpace,
     rounded: DVec3,
     position: F,
     homogeneous: OnceCell<HomogeneousPoint>,
@@ -26,22 +26,18 @@ pub struct PreciseQuery<F> {
 
 impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
     /// `rounded` is what `position` returns with each coordinate correctly rounded.
-    pub fn new(light: Vec3, rounded: DVec3, position: F) -> PreciseQuery<F> {
-        PreciseQuery { light, rounded, position, homogeneous: OnceCell::new() }
+    pub fn new(space: &LightSpace, rounded: DVec3, position: F) -> PreciseQuery<F> {
+        PreciseQuery { space: *space, rounded, position, homogeneous: OnceCell::new() }
     }
 
-    /// The exact point relative to the light.
+    /// The exact point relative to the origin of the light's space.
     pub fn exact(&self) -> &HomogeneousPoint {
-        self.homogeneous.get_or_init(|| (self.position)().relative_to(self.light))
+        self.homogeneous.get_or_init(|| (self.position)().relative_to(self.space.origin()))
     }
 
     /// Whether the triangle blocks the open segment between point and light (TRUTH, "Occluded").
     pub fn blocks(&self, corners: [Vec3; 3]) -> (bool, Stage) {
-        let corners = match orientation(self.light, corners) {
-            Sign::Zero => return (false, Stage::Double),
-            Sign::Positive => corners,
-            Sign::Negative => [corners[0], corners[2], corners[1]],
-        };
+        let Some(corners) = oriented(self.space.light(), corners) else { return (false, Stage::Double) };
         match self.blocks_in_f64(corners) {
             Some(answer) => (answer, Stage::Double),
             None => (self.blocks_exactly(corners), Stage::Exact),
@@ -54,20 +50,23 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
     }
 
     fn blocks_in_f64(&self, corners: [Vec3; 3]) -> Option<bool> {
-        let light = self.light.as_dvec3();
-        let planes = OrientedPlanes::new(light, corners.map(Vec3::as_dvec3));
-        let p = self.rounded - light;
-        let error = self.difference_error(p);
+        let corners = corners.map(Vec3::as_dvec3);
+        let planes = OrientedPlanes::new(&self.space, corners);
         let mut undecided = false;
-        for edge in &planes.edges {
-            let (value, bound) = edge.dot(p, error);
+        for (i, edge) in planes.edges.iter().enumerate() {
+            // Relative to a point of the plane: the light, or a corner of the edge.
+            let p = match self.space.light() {
+                LightPosition::At(light) => self.rounded - light.as_dvec3(),
+                LightPosition::Towards(_) => self.rounded - corners[i],
+            };
+            let (value, bound) = edge.dot(p, self.difference_error(p));
             match Sign::certain(value, bound) {
                 Some(Sign::Negative) => return Some(false),
                 Some(_) => {}
                 None => undecided = true,
             }
         }
-        let beyond = self.rounded - corners[0].as_dvec3();
+        let beyond = self.rounded - corners[0];
         let (value, bound) = planes.own.dot(beyond, self.difference_error(beyond));
         match Sign::certain(value, bound) {
             Some(Sign::Negative) => Some(false),
@@ -76,18 +75,28 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         }
     }
 
-    /// Corners are ordered so that det(u0, u1, u2) > 0.
-    fn blocks_exactly(&self, [a, b, c]: [Vec3; 3]) -> bool {
+    /// Corners are in the order of positive orientation.
+    fn blocks_exactly(&self, corners: [Vec3; 3]) -> bool {
         let p = self.exact();
-        let u = [a, b, c].map(|corner| expansion::difference(corner, self.light));
+        let u = corners.map(|corner| expansion::difference(corner, self.space.origin()));
+        let from_corner =
+            |i: usize| -> [Expansion; 3] { std::array::from_fn(|k| &p.xyz[k] - &(&u[i][k] * &p.w)) };
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            if expansion::dot(&expansion::cross(&u[i], &u[j]), &p.xyz).sign() == Sign::Negative {
+            let value = match self.space.light() {
+                LightPosition::At(_) => expansion::dot(&expansion::cross(&u[i], &u[j]), &p.xyz),
+                LightPosition::Towards(direction) => {
+                    let edge = expansion::difference(corners[j], corners[i]);
+                    let normal = expansion::cross(&edge, &direction.to_array().map(Expansion::from));
+                    expansion::dot(&normal, &from_corner(i))
+                }
+            };
+            if value.sign() == Sign::Negative {
                 return false;
             }
         }
+        let [a, b, c] = corners;
         let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
-        let beyond: [Expansion; 3] = [0, 1, 2].map(|i| &p.xyz[i] - &(&u[0][i] * &p.w));
-        expansion::dot(&normal, &beyond).sign() == Sign::Positive
+        expansion::dot(&normal, &from_corner(0)).sign() == Sign::Positive
     }
 }
 
@@ -108,6 +117,7 @@ mod tests {
         #[test]
         fn no_filter_contradicts_exact_arithmetic(
             light in coordinates(),
+            is_far in any::<bool>(),
             corners in prop::array::uniform3(coordinates()),
             along in 0.0f32..1.0,
             depth in 0.9f32..1.6,
@@ -116,21 +126,22 @@ mod tests {
         ) {
             let place = |p: Vec3| (p + Vec3::splat(offset)) * scale;
             let corners = corners.map(place);
-            let light = place(light);
             let on_edge = corners[0] + along * (corners[1] - corners[0]);
-            let point = light + depth * (on_edge - light);
-            let query = PreciseQuery::new(light, point.as_dvec3(), || ExactPosition::Bare(point));
-            let oriented = match orientation(light, corners) {
-                Sign::Zero => return Ok(()),
-                Sign::Positive => corners,
-                Sign::Negative => [corners[0], corners[2], corners[1]],
+            let bounds = corners[1..].iter().fold((corners[0], corners[0]), |(low, high), &c| (low.min(c), high.max(c)));
+            let (space, point) = if is_far {
+                (LightSpace::new(LightPosition::Towards(light), bounds), on_edge - (depth - 1.0) * scale * light)
+            } else {
+                let light = place(light);
+                (LightSpace::from(light), light + depth * (on_edge - light))
             };
+            let query = PreciseQuery::new(&space, point.as_dvec3(), || ExactPosition::Bare(point));
+            let Some(oriented) = oriented(space.light(), corners) else { return Ok(()) };
             let exact = query.blocks_exactly(oriented);
             if let Some(answer) = query.blocks_in_f64(oriented) {
                 prop_assert_eq!(answer, exact);
             }
-            let record = LightTriangle::new(light, corners).expect("a light off the plane");
-            match record.classify(&LightPoint::new(light, point.as_dvec3())) {
+            let record = LightTriangle::new(&space, corners).expect("a light off the plane");
+            match record.classify(&LightPoint::new(&space, point.as_dvec3())) {
                 Filtered::Blocks => prop_assert!(exact),
                 Filtered::Clear => prop_assert!(!exact),
                 Filtered::Undecided => {}

@@ -5,7 +5,7 @@
 //! (ui x uj) . d >= 0 for the three edges. Then t = h / (N . d), a quotient of positive numbers of degree 3.
 
 use super::expansion::{self, Expansion};
-use super::light_triangle::{OrientedPlanes, orientation};
+use super::planes::{OrientedPlanes, oriented};
 use super::{ROUNDOFF, Sign};
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
@@ -31,12 +31,8 @@ pub struct RayParameter {
 impl RayTriangle {
     /// Prepares a triangle; `None` if its plane holds the origin, so that no ray hits it at t > 0.
     pub fn new(origin: Vec3, corners: [Vec3; 3]) -> Option<RayTriangle> {
-        let oriented = match orientation(origin, corners) {
-            Sign::Zero => return None,
-            Sign::Positive => corners,
-            Sign::Negative => [corners[0], corners[2], corners[1]],
-        };
-        let planes = OrientedPlanes::new(origin.as_dvec3(), oriented.map(Vec3::as_dvec3));
+        let oriented = oriented(origin, corners)?;
+        let planes = OrientedPlanes::from_apex(origin.as_dvec3(), oriented.map(Vec3::as_dvec3));
         Some(RayTriangle { origin, oriented, planes })
     }
 

@@ -14,7 +14,7 @@ impl Expansion {
 }
 
 /// An expansion in units of 2^-1074.
-fn units(value: &Expansion) -> IBig {
+pub(super) fn units(value: &Expansion) -> IBig {
     value.components().iter().fold(IBig::ZERO, |sum, &c| sum + units_of(c))
 }
 

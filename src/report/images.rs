@@ -47,7 +47,10 @@ pub fn picture_planes(
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Difference {
     Background,
-    FacingAway,
+    /// Nobody is asked, and it is dark: it faces away or is outside the cone.
+    Unlit,
+    /// Nobody is asked, and it is lit: it receives no shadows.
+    NotReceiving,
     BothLit,
     BothOccluded,
     OnlyTesterOccluded,
@@ -76,9 +79,15 @@ impl LightMaps {
         let embree = verdict.tester("embree").map(|t| &t.run);
         let mut pixels = vec![(PixelVerdict::Background, false); size.pixels()];
         let mut difference = vec![Difference::Background; size.pixels()];
-        for &pixel in &queries.facing_away {
-            pixels[pixel as usize].0 = PixelVerdict::FacingAway;
-            difference[pixel as usize] = Difference::FacingAway;
+        for (unasked, verdict, class) in [
+            (&queries.facing_away, PixelVerdict::FacingAway, Difference::Unlit),
+            (&queries.outside_cone, PixelVerdict::OutsideCone, Difference::Unlit),
+            (&queries.not_receiving, PixelVerdict::NotReceiving, Difference::NotReceiving),
+        ] {
+            for &pixel in unasked {
+                pixels[pixel as usize].0 = verdict;
+                difference[pixel as usize] = class;
+            }
         }
         for (i, &pixel) in queries.pixels.iter().enumerate() {
             let other = embree.map(|e| e.occluded[i]);
@@ -123,7 +132,8 @@ impl LightMaps {
         let tester = self.tester;
         let legend = vec![
             Category::plain("background", palette::BACKGROUND),
-            Category::plain("faces away", palette::FACING_AWAY),
+            Category::plain("faces away or outside the cone", palette::FACING_AWAY),
+            Category::if_present("receives no shadows", palette::NOT_RECEIVING),
             Category::plain("both lit", palette::LIT),
             Category::plain("both occluded", palette::SHADOWED),
             Category::marked_when_rare(format!("only {tester} occluded"), palette::VERMILLION),
@@ -148,9 +158,11 @@ impl LightMaps {
             Category::marked_when_rare(format!("{tester} wrong"), palette::VERMILLION),
             Category::marked_when_rare("embree wrong", palette::SKY_BLUE),
             Category::marked_when_rare("both wrong", palette::REDDISH_PURPLE),
+            Category::if_present("outside the cone", palette::OUTSIDE_CONE),
+            Category::if_present("receives no shadows", palette::NOT_RECEIVING),
             Category::marked_when_rare("touching, all right", palette::YELLOW),
         ];
-        let touching_class = 7;
+        let touching_class = 9;
         let class = |&(verdict, touching): &(PixelVerdict, bool)| match verdict {
             PixelVerdict::Lit | PixelVerdict::Occluded if touching => touching_class,
             _ => verdict.code(),

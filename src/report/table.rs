@@ -11,14 +11,21 @@ use std::fmt::Write;
 pub fn verdict_table(report: &Validation) -> String {
     let mut text = String::new();
     for light in &report.lights {
-        let _ = writeln!(
+        let _ = write!(
             text,
-            "light {}: {} queries, {} points face away, {} touching",
+            "light {}: {} queries, {} points face away, ",
             light.name,
             grouped(light.queries),
-            grouped(light.facing_away),
-            grouped(light.verdicts.touching)
+            grouped(light.facing_away)
         );
+        for (count, what) in
+            [(light.outside_cone, "outside the cone"), (light.not_receiving, "on objects without shadows")]
+        {
+            if count > 0 {
+                let _ = write!(text, "{} {what}, ", grouped(count));
+            }
+        }
+        let _ = writeln!(text, "{} touching", grouped(light.verdicts.touching));
         rows(&mut text, &|name| light.testers.get(name));
         if let Some(check) = light.arbiter_check {
             let _ = writeln!(

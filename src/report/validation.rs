@@ -1,7 +1,7 @@
 //! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
 
 use crate::shadow::Basis;
-use crate::verdict::{ArbiterCheck, LightVerdict, TesterCounts, TesterResult, VerdictCounts};
+use crate::verdict::{ArbiterCheck, LightVerdict, Queries, TesterCounts, TesterResult, VerdictCounts};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -49,6 +49,10 @@ pub struct LightReport {
     pub queries: u64,
     /// Visible points that face away from it.
     pub facing_away: u64,
+    /// Visible points that face it and are outside its cone.
+    pub outside_cone: u64,
+    /// Visible points that would be queries, were they on objects that receive shadows.
+    pub not_receiving: u64,
     /// Testers by name.
     pub testers: BTreeMap<&'static str, TesterReport>,
     /// Who is right where.
@@ -89,7 +93,7 @@ pub struct Totals {
 
 impl LightReport {
     /// The report on one light.
-    pub fn new(name: &str, queries: u64, facing_away: u64, verdict: &LightVerdict) -> LightReport {
+    pub fn new(name: &str, queries: &Queries, verdict: &LightVerdict) -> LightReport {
         let report = |t: &TesterResult| TesterReport {
             counts: t.counts,
             build_seconds: t.run.build_seconds,
@@ -98,8 +102,10 @@ impl LightReport {
         };
         LightReport {
             name: name.into(),
-            queries,
-            facing_away,
+            queries: queries.points.len() as u64,
+            facing_away: queries.facing_away.len() as u64,
+            outside_cone: queries.outside_cone.len() as u64,
+            not_receiving: queries.not_receiving.len() as u64,
             testers: verdict.testers.iter().map(|t| (t.run.name, report(t))).collect(),
             verdicts: verdict.counts,
             arbiter_check: None,

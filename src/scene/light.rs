@@ -1,6 +1,7 @@
 //! Lights. Colours are linear Rec. 709; kinds and units are those of glTF's `KHR_lights_punctual`.
 
 use crate::geometry::LightPosition;
+use crate::geometry::cone::LightCone;
 use glam::Vec3;
 
 /// A light with its name.
@@ -95,6 +96,16 @@ impl Light {
     pub fn cone(&self) -> Option<&Cone> {
         match &self.emitter {
             Emitter::Spot(light) => Some(&light.cone),
+            Emitter::Point(_) | Emitter::Directional(_) => None,
+        }
+    }
+
+    /// The points that it shines on, if it is a spot light.
+    pub fn lit_cone(&self) -> Option<LightCone> {
+        match &self.emitter {
+            Emitter::Spot(SpotLight { point, cone }) => {
+                Some(LightCone { apex: point.position, axis: cone.axis, cosine: cone.cos_outer })
+            }
             Emitter::Point(_) | Emitter::Directional(_) => None,
         }
     }

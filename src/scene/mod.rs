@@ -113,6 +113,11 @@ impl Scene {
         (object + 1, primitive - self.objects[object as usize].first + 1)
     }
 
+    /// The object that a triangle belongs to.
+    pub fn object(&self, primitive: PrimitiveIndex) -> &Object {
+        &self.objects[self.triangles[primitive as usize].object as usize]
+    }
+
     /// The material of a triangle.
     pub fn material(&self, primitive: PrimitiveIndex) -> &Material {
         let object = self.triangles[primitive as usize].object;

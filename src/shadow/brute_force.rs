@@ -7,7 +7,6 @@ use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
 use crate::geometry::occlusion::{PreciseQuery, Stage};
 use crate::scene::Scene;
 use crate::visibility::SurfacePoint;
-use glam::Vec3;
 
 /// `brute-force` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -20,7 +19,6 @@ pub const ENTRY: TesterEntry = TesterEntry {
 /// All casters of a scene as one light sees them.
 pub struct BruteForce<'a> {
     scene: &'a Scene,
-    light: Vec3,
     casters: Casters,
     instruction_set: InstructionSet,
 }
@@ -29,12 +27,12 @@ impl<'a> BruteForce<'a> {
     /// Prepares the planes of every caster; `instruction_set` must be available.
     pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> BruteForce<'a> {
         let casters = Casters::new(input.scene, input.index, input.light);
-        BruteForce { scene: input.scene, light: input.light, casters, instruction_set }
+        BruteForce { scene: input.scene, casters, instruction_set }
     }
 
     fn answer_batch(&self, points: &[SurfacePoint], answers: &mut [bool], counters: &mut Counters) {
         let relative: Vec<LightPoint> =
-            points.iter().map(|p| LightPoint::new(self.light, p.position)).collect();
+            points.iter().map(|p| LightPoint::new(&self.casters.space, p.position)).collect();
         let batch = PointBatch::new(&relative);
         let mut live = (u32::MAX >> (32 - points.len())) as u16;
         let mut start = 0;
@@ -49,7 +47,8 @@ impl<'a> BruteForce<'a> {
                     continue;
                 }
                 counters.undecided += 1;
-                let query = PreciseQuery::new(self.light, point.position, || point.exact(self.scene));
+                let query =
+                    PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
                 let (blocks, stage) = query.blocks(self.scene.corners(primitive));
                 counters.exact += u64::from(stage == Stage::Exact);
                 blocked |= u16::from(blocks) << i;

@@ -11,6 +11,8 @@ use crate::embree::{
     TriangleScene,
 };
 use crate::error::Result;
+use crate::geometry::LightPosition;
+use crate::scene::{PrimitiveIndex, Scene, Triangle};
 use crate::visibility::SurfacePoint;
 use glam::Vec3;
 
@@ -30,42 +32,91 @@ pub const FAST: TesterEntry = TesterEntry {
     expected_tests: |_, queries| 10.0 * queries,
 };
 
-/// The epsilon that renderers usually give it, as a share of the segment (pbrt's shadow epsilon).
+/// A direction brought near length 1 by a power of two, if it is so long or short that Embree would refuse it
+/// or lose it, and what it was divided by.
+fn in_range(direction: Vec3) -> (Vec3, f32) {
+    let largest = direction.abs().max_element();
+    if !(largest > 0.0 && largest.is_finite()) || (1e-15..1e15).contains(&largest) {
+        return (direction, 1.0);
+    }
+    // The exponent alone: a power of two, so that nothing is rounded but what underflows.
+    let scale = f64::from_bits(f64::from(largest).to_bits() & 0x7ff0_0000_0000_0000);
+    ((direction.as_dvec3() / scale).as_vec3(), scale as f32)
+}
+
+/// Indices of all triangles among those that cast; [`ShadowRay::NO_TRIANGLE`] for the others.
+fn casting_indices(scene: &Scene) -> Vec<u32> {
+    let mut next = 0;
+    let index = |t: &Triangle| {
+        if !scene.objects[t.object as usize].shadowing.casts {
+            return ShadowRay::NO_TRIANGLE;
+        }
+        next += 1;
+        next - 1
+    };
+    scene.triangles.iter().map(index).collect()
+}
+
+/// The epsilon that renderers usually give it, as a share of the segment (pbrt's shadow epsilon). Where the
+/// light is infinitely far away, it is a share of the diameter of what casts, and at the near end only.
 pub const USUAL_EPSILON: f32 = 1e-4;
 
 /// An Embree scene and one light.
 pub struct Embree {
     scene: TriangleScene,
-    light: Vec3,
+    light: LightPosition,
     epsilon: f32,
+    /// Index of each triangle of the scene among those that Embree has, if it does not have all.
+    casting: Option<Vec<u32>>,
+    /// Length of the segments of a light infinitely far away that the epsilon is a share of.
+    diameter: f32,
 }
 
 impl Embree {
-    /// Builds Embree's hierarchy over all triangles of the scene.
+    /// Builds Embree's hierarchy over all triangles that cast.
     ///
     /// # Errors
     /// Whatever Embree reports.
     pub fn new(input: &BuildInput, robustness: Robustness, receiver: Receiver) -> Result<Embree> {
         let device = Device::new(input.embree.threads)?;
         let vertices: Vec<[f32; 3]> = input.scene.vertices.iter().map(|v| v.to_array()).collect();
-        let triangles: Vec<[u32; 3]> = input.scene.triangles.iter().map(|t| t.vertices).collect();
+        let casts = |t: &&Triangle| input.scene.objects[t.object as usize].shadowing.casts;
+        let triangles: Vec<[u32; 3]> =
+            input.scene.triangles.iter().filter(casts).map(|t| t.vertices).collect();
         let options = SceneOptions { robustness, quality: BuildQuality::Medium, receiver };
         let scene = TriangleScene::new(&device, &vertices, &triangles, options)?;
-        Ok(Embree { scene, light: input.light, epsilon: input.embree.epsilon })
+        let casting = (triangles.len() < input.scene.triangles.len()).then(|| casting_indices(input.scene));
+        let (low, high) = input.index.bounds;
+        let diameter = (high * 0.5 - low * 0.5).length() * 2.0;
+        Ok(Embree { scene, light: input.light, epsilon: input.embree.epsilon, casting, diameter })
     }
 
     /// The ray that Embree is given for a point: not normalised, so that 1 is the light. `None` for a point
     /// whose rounding is the light itself, which no ray can ask for.
     pub fn ray(&self, point: &SurfacePoint) -> Option<ShadowRay> {
         let origin = point.position.as_vec3();
-        let direction = self.light - origin;
+        let (direction, t_near, t_far) = match self.light {
+            LightPosition::At(light) => {
+                let (direction, scale) = in_range(light - origin);
+                (direction, self.epsilon * scale, (1.0 - self.epsilon) * scale)
+            }
+            LightPosition::Towards(direction) => {
+                let (direction, _) = in_range(direction);
+                (direction, self.epsilon * self.diameter / direction.length(), f32::INFINITY)
+            }
+        };
         (direction != Vec3::ZERO && direction.is_finite()).then(|| ShadowRay {
             origin: origin.to_array(),
-            t_near: self.epsilon,
+            t_near,
             direction: direction.to_array(),
-            t_far: 1.0 - self.epsilon,
-            excluded: point.primitive().unwrap_or(ShadowRay::NO_TRIANGLE),
+            t_far,
+            excluded: point.primitive().map_or(ShadowRay::NO_TRIANGLE, |primitive| self.index_of(primitive)),
         })
+    }
+
+    /// Embree's index of a triangle of the scene.
+    fn index_of(&self, primitive: PrimitiveIndex) -> u32 {
+        self.casting.as_ref().map_or(primitive, |casting| casting[primitive as usize])
     }
 }
 

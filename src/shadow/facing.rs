@@ -1,19 +1,19 @@
 //! Dark by facing: what turns its back to the light is no shadow query (row 12 of the notes on the 1986
 //! paper, TRUTH "Facing").
 
-use crate::geometry::Sign;
-use crate::geometry::light_triangle::orientation;
+use crate::geometry::planes::orientation;
+use crate::geometry::{LightPosition, Sign};
 use crate::scene::Scene;
 use crate::visibility::{PointSource, SurfacePoint};
-use glam::Vec3;
 use rayon::prelude::*;
 
 /// The exact side of every triangle's plane that some point lies on.
 pub struct Sides(Vec<Sign>);
 
 impl Sides {
-    /// Sides of all planes for one point.
-    pub fn of(scene: &Scene, point: Vec3) -> Sides {
+    /// Sides of all planes for one point, or for a light infinitely far away.
+    pub fn of(scene: &Scene, point: impl Into<LightPosition>) -> Sides {
+        let point = point.into();
         let triangles = 0..scene.triangles.len() as u32;
         Sides(triangles.into_par_iter().map(|t| orientation(point, scene.corners(t))).collect())
     }
@@ -36,6 +36,7 @@ pub fn faces(point: &SurfacePoint, light: &Sides, eye: &Sides) -> bool {
 mod tests {
     use super::*;
     use crate::scene::{ObjectInput, SceneBuilder};
+    use glam::Vec3;
 
     /// Whether a point of the triangle in the plane y = 0 faces a light, seen by an eye straight above or
     /// below it, whichever way its corners are written.

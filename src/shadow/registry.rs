@@ -2,8 +2,8 @@
 
 use super::{Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
 use crate::error::{Error, Result};
+use crate::geometry::LightPosition;
 use crate::scene::Scene;
-use glam::Vec3;
 
 /// What a tester's answers rest on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +23,8 @@ pub struct BuildInput<'a> {
     pub scene: &'a Scene,
     /// What was made of the scene for all lights.
     pub index: &'a SceneIndex,
-    /// Position of the light.
-    pub light: Vec3,
+    /// Where the light is.
+    pub light: LightPosition,
     /// Cells along a cube face, for testers that have such.
     pub resolution: Resolution,
     /// Where the queries come from.

@@ -1,7 +1,7 @@
 //! What belongs to the scene and not to one light, made once for all of them.
 
-use crate::geometry::LightTriangle;
 use crate::geometry::convexity::{self, Convexity};
+use crate::geometry::{LightPosition, LightSpace, LightTriangle};
 use crate::scene::{PrimitiveIndex, Scene};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -9,8 +9,11 @@ use std::collections::HashSet;
 
 /// Which triangles are cast, and which objects are convex.
 pub struct SceneIndex {
-    /// Triangles that block light, exact duplicates once (TRUTH, "Surface points and rays").
+    /// Triangles that block light: of objects that cast, exact duplicates once (TRUTH, "Surface points and
+    /// rays").
     pub casting: Vec<PrimitiveIndex>,
+    /// Lowest and highest corner of a box around them; both zero if there are none.
+    pub bounds: (Vec3, Vec3),
     /// For each object its verified convexity.
     pub convexity: Vec<Option<Convexity>>,
 }
@@ -19,7 +22,12 @@ impl SceneIndex {
     /// Examines a scene.
     pub fn new(scene: &Scene) -> SceneIndex {
         let mut seen = HashSet::with_capacity(scene.triangles.len());
-        let casting = (0..scene.triangles.len() as u32).filter(|&t| seen.insert(key(scene, t))).collect();
+        let casting: Vec<_> = (0..scene.triangles.len() as u32)
+            .filter(|&t| scene.object(t).shadowing.casts && seen.insert(key(scene, t)))
+            .collect();
+        let corners = || casting.iter().flat_map(|&t| scene.corners(t));
+        let first = corners().next().unwrap_or_default();
+        let bounds = corners().fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
         let convexity = scene
             .objects
             .par_iter()
@@ -29,7 +37,7 @@ impl SceneIndex {
                 convexity::verify(&triangles)
             })
             .collect();
-        SceneIndex { casting, convexity }
+        SceneIndex { casting, bounds, convexity }
     }
 }
 
@@ -47,17 +55,20 @@ pub struct Casters {
     pub planes: Vec<LightTriangle>,
     /// Its triangle in the scene.
     pub primitives: Vec<PrimitiveIndex>,
+    /// What the planes are relative to.
+    pub space: LightSpace,
 }
 
 impl Casters {
     /// Planes relative to a light.
-    pub fn new(scene: &Scene, index: &SceneIndex, light: Vec3) -> Casters {
+    pub fn new(scene: &Scene, index: &SceneIndex, light: LightPosition) -> Casters {
+        let space = LightSpace::new(light, index.bounds);
         let (planes, primitives) = index
             .casting
             .par_iter()
-            .filter_map(|&primitive| Some((LightTriangle::new(light, scene.corners(primitive))?, primitive)))
+            .filter_map(|&primitive| Some((LightTriangle::new(&space, scene.corners(primitive))?, primitive)))
             .unzip();
-        Casters { planes, primitives }
+        Casters { planes, primitives, space }
     }
 
     /// Memory in bytes.

@@ -1,6 +1,7 @@
 //! The arbiter itself, checked against the plain definition in integers.
 
 use super::Queries;
+use crate::geometry::LightPosition;
 use crate::scene::Scene;
 use crate::shadow::exact::Occlusion;
 use crate::shadow::exact::plain::PlainTest;
@@ -20,7 +21,7 @@ pub struct ArbiterCheck {
 /// and compares with the arbiter's `truth`.
 pub fn check_arbiter(
     scene: &Scene,
-    light: glam::Vec3,
+    light: LightPosition,
     queries: &Queries,
     truth: &[bool],
     most: usize,

@@ -1,31 +1,45 @@
 //! Verdicts pixel by pixel.
 
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 use crate::shadow::facing::{Sides, faces};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
 
-/// The shadow queries of one light: visible points that face it.
-#[derive(Debug, Clone)]
+/// The shadow queries of one light: visible points that face it, inside its cone if it has one, on objects
+/// that receive shadows.
+#[derive(Debug, Clone, Default)]
 pub struct Queries {
     /// The points.
     pub points: Vec<SurfacePoint>,
     /// The pixel of each point.
     pub pixels: Vec<u32>,
-    /// Pixels whose surface faces away from the light.
+    /// Pixels whose surface faces away from the light: dark without a query.
     pub facing_away: Vec<u32>,
+    /// Pixels whose surface faces it and is outside its cone: dark without a query.
+    pub outside_cone: Vec<u32>,
+    /// Pixels of objects that receive no shadows and would otherwise be queries: lit without one.
+    pub not_receiving: Vec<u32>,
 }
 
 impl Queries {
-    /// Splits the visible points by facing; `eye` are the sides of the camera.
-    pub fn new(scene: &Scene, visible: &VisibleSurfaces, light: glam::Vec3, eye: &Sides) -> Queries {
-        let sides = Sides::of(scene, light);
-        let mut queries = Queries { points: Vec::new(), pixels: Vec::new(), facing_away: Vec::new() };
+    /// Splits the visible points; `eye` are the sides of the camera.
+    pub fn new(scene: &Scene, visible: &VisibleSurfaces, light: &Light, eye: &Sides) -> Queries {
+        let sides = Sides::of(scene, light.position());
+        let cone = light.lit_cone();
+        let is_lit =
+            |point: &SurfacePoint| cone.is_none_or(|cone| cone.holds(point.position, || point.exact(scene)));
+        let receives =
+            |point: &SurfacePoint| point.primitive().is_none_or(|p| scene.object(p).shadowing.receives);
+        let mut queries = Queries::default();
         for (point, &pixel) in visible.points.iter().zip(&visible.pixels) {
-            if faces(point, &sides, eye) {
+            if !faces(point, &sides, eye) {
+                queries.facing_away.push(pixel);
+            } else if !is_lit(point) {
+                queries.outside_cone.push(pixel);
+            } else if !receives(point) {
+                queries.not_receiving.push(pixel);
+            } else {
                 queries.points.push(*point);
                 queries.pixels.push(pixel);
-            } else {
-                queries.facing_away.push(pixel);
             }
         }
         queries
@@ -51,6 +65,10 @@ pub enum PixelVerdict {
     EmbreeWrong = 5,
     /// Both are wrong.
     BothWrong = 6,
+    /// Outside the cone of a spot light: dark without a query.
+    OutsideCone = 7,
+    /// On an object that receives no shadows: lit without a query.
+    NotReceiving = 8,
 }
 
 impl PixelVerdict {

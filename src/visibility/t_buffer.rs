@@ -37,7 +37,7 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
     }
     let grid = pixel_grid(&raster, size);
     let [x, y, z] = [camera.right, camera.up, camera.forward].map(|axis| axis.as_dvec3());
-    let frame = Frame::new(x, y, z);
+    let frame = Frame::perspective(x, y, z);
     let mut items: Vec<Option<Hit>> = vec![None; size.pixels()];
     let mut tests = 0;
     for object in &scene.objects {

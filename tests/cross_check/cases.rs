@@ -1,7 +1,10 @@
 //! Small scenes that are hard on shadow testers, and the demo scenes small.
 
 use glam::Vec3;
-use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, formats, frame};
+use lightbuffer::scene::{
+    Camera, Cone, DirectionalLight, Emitter, Falloff, Framing, ImageSize, Light, ObjectInput, PointLight,
+    Scene, SceneBuilder, SpotLight, formats, frame,
+};
 use std::path::Path;
 
 /// A scene, where it is seen from, and its lights.
@@ -11,7 +14,18 @@ pub struct Case {
     pub scene: Scene,
     pub camera: Camera,
     pub size: ImageSize,
-    pub lights: Vec<Vec3>,
+    pub lights: Vec<Light>,
+}
+
+/// A light at a point.
+pub fn lamp(position: Vec3) -> Light {
+    Light::point("lamp", PointLight { position, intensity: [1.0; 3], falloff: Falloff::InverseSquare })
+}
+
+/// A light infinitely far away.
+pub fn sun(towards: Vec3) -> Light {
+    let emitter = Emitter::Directional(DirectionalLight { towards, irradiance: [1.0; 3] });
+    Light { name: "sun".into(), emitter }
 }
 
 /// Builds scenes from boxes, sheets and fans.
@@ -84,7 +98,7 @@ fn placed(
         scene: parts.scene(name, &place),
         camera: Camera::look_at("eye", origin, target, Vec3::Y, 50.0),
         size: SIZE,
-        lights: lights.iter().map(|&l| place(Vec3::from(l))).collect(),
+        lights: lights.iter().map(|&l| lamp(place(Vec3::from(l)))).collect(),
     }
 }
 
@@ -172,7 +186,54 @@ pub fn all() -> Vec<Case> {
         placed("2^40 times as small", boxes(), EYE, &[LIGHT], |p| p / up),
     ];
     cases.push(file("blocks.obj"));
+    cases.extend(under_other_lights());
     cases
+}
+
+/// The same shapes under lights that are infinitely far away, or that shine into a cone.
+fn under_other_lights() -> Vec<Case> {
+    let towards = |x: f32, y: f32, z: f32| sun(Vec3::new(x, y, z));
+    let tiny = f32::from_bits(1);
+    let suns = [
+        towards(-0.5, 1.0, 0.375),
+        towards(0.0, 3.0, 0.0),
+        towards(1.0, 1.0, 0.0),
+        towards(1.0, 1.0, -1.0),
+        towards(tiny, 1.0, -tiny),
+        towards(-1e-30, 1e-30, 3e-31),
+        towards(2e38, 1e38, 0.0),
+        towards(0.3, 1e-3, 0.2),
+    ];
+    let lit_by = |lights: &[Light], case: Case| Case { lights: lights.to_vec(), ..case };
+    let spot = |position: [f32; 3], axis: [f32; 3], cos_outer: f32| {
+        let point = PointLight {
+            position: Vec3::from(position),
+            intensity: [1.0; 3],
+            falloff: Falloff::InverseSquare,
+        };
+        let cone = Cone { axis: Vec3::from(axis), cos_inner: 1.0, cos_outer };
+        Light { name: "spot".into(), emitter: Emitter::Spot(SpotLight { point, cone }) }
+    };
+    let up = 2f32.powi(40);
+    let place = |p: Vec3| p + Vec3::new(148_376.0, 1234.0, -223_423.0);
+    vec![
+        lit_by(&suns, case("boxes under suns", boxes(), EYE, &[])),
+        lit_by(&suns, placed("far from the origin under suns", boxes(), EYE, &[], place)),
+        lit_by(&suns, placed("small under suns", boxes(), EYE, &[], |p| p / up)),
+        lit_by(
+            &suns[..4],
+            case(
+                "stacked grids under suns",
+                Parts::default().grid(6, 3.0, 0.0).grid(3, 1.0, 0.75).grid(4, 0.5, 1.5),
+                EYE,
+                &[],
+            ),
+        ),
+        lit_by(
+            &[spot(LIGHT, [2.0, -4.0, -1.5], 0.9), spot([0.0, 3.0, 0.0], [0.0, -1.0, 0.0], 0.5)],
+            case("boxes under spots", boxes(), EYE, &[]),
+        ),
+    ]
 }
 
 /// A demo scene, small.
@@ -180,7 +241,7 @@ fn file(name: &str) -> Case {
     let mut scene = formats::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap();
     frame(&mut scene, Framing::WithFloor).unwrap();
     let camera = scene.cameras[0].clone();
-    let lights = scene.lights.iter().map(|light| light.position().homogeneous().0).collect();
+    let lights = scene.lights.clone();
     Case { name: name.into(), scene, camera, size: SIZE, lights }
 }
 

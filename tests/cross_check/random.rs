@@ -1,6 +1,6 @@
 //! Random small scenes on a coarse grid: shared edges, coplanar and crossing faces, slivers, nothing nice.
 
-use crate::cases::{Case, soup};
+use crate::cases::{Case, lamp, soup, sun};
 use crate::runner::{Asked, Setting, ask};
 use glam::Vec3;
 use lightbuffer::scene::{Camera, ImageSize};
@@ -13,7 +13,12 @@ fn grid_point() -> impl Strategy<Value = Vec3> {
 
 fn case() -> impl Strategy<Value = Case> {
     let triangles = prop::collection::vec(prop::array::uniform3(grid_point()), 2..14);
-    let lights = prop::collection::vec(prop_oneof![grid_point(), grid_point().prop_map(|p| p * 1.37)], 1..4);
+    let light = prop_oneof![
+        grid_point().prop_map(lamp),
+        grid_point().prop_map(|p| lamp(p * 1.37)),
+        grid_point().prop_filter("a direction", |d| *d != Vec3::ZERO).prop_map(sun),
+    ];
+    let lights = prop::collection::vec(light, 1..4);
     (triangles, lights, grid_point(), 1usize..4).prop_map(|(triangles, lights, eye, objects)| {
         let parts = triangles.chunks(triangles.len().div_ceil(objects)).map(<[_]>::to_vec);
         let scene = soup("random", parts);

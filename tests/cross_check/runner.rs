@@ -1,8 +1,9 @@
 //! Asks testers about a case.
 
 use crate::cases::Case;
-use glam::Vec3;
+use lightbuffer::geometry::LightPosition;
 use lightbuffer::measure::answer;
+use lightbuffer::scene::Light;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::facing::Sides;
@@ -12,7 +13,7 @@ use lightbuffer::verdict::Queries;
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
 /// Checksum of the masks of all cases, the same in every build profile.
-pub const RECORDED_CHECKSUM: u64 = 11_654_821_184_008_717_361;
+pub const RECORDED_CHECKSUM: u64 = 17_664_465_998_549_095_171;
 
 /// How a tester is built and run.
 #[derive(Clone, Copy)]
@@ -25,7 +26,7 @@ pub struct Setting {
 pub struct Asked<'a> {
     case: &'a Case,
     index: SceneIndex,
-    lights: Vec<(Vec3, Queries)>,
+    lights: Vec<(LightPosition, Queries)>,
 }
 
 impl<'a> Asked<'a> {
@@ -33,11 +34,11 @@ impl<'a> Asked<'a> {
         let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
         let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
         let eye = Sides::of(&case.scene, case.camera.origin);
-        let queries = |&light: &Vec3| (light, Queries::new(&case.scene, &visible, light, &eye));
+        let queries = |light: &Light| (light.position(), Queries::new(&case.scene, &visible, light, &eye));
         Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
     }
 
-    fn input(&self, light: Vec3, setting: Setting) -> BuildInput<'_> {
+    fn input(&self, light: LightPosition, setting: Setting) -> BuildInput<'_> {
         BuildInput {
             scene: &self.case.scene,
             index: &self.index,
@@ -96,7 +97,7 @@ impl<'a> Asked<'a> {
 /// A tester's answers to all queries of a case.
 pub fn ask(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<bool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
-    let one_light = |(light, queries): &(Vec3, Queries)| {
+    let one_light = |(light, queries): &(LightPosition, Queries)| {
         let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
         answer(tester.as_ref(), &queries.points, &|_| {}).unwrap().occluded
     };

@@ -4,6 +4,7 @@
 //! segment's line passes it by more than a slack far above f64 rounding.
 
 use super::interval::{Box3, Interval};
+use crate::geometry::LightPosition;
 use glam::{DVec3, Vec3};
 
 /// Most triangles of a leaf.
@@ -69,7 +70,7 @@ impl Hierarchy {
 
     /// Calls `visit` with every triangle whose box the segment from the light to the point may meet, until
     /// it returns [`Visit::Stop`].
-    pub fn walk(&self, light: Vec3, point: &Box3, mut visit: impl FnMut(u32) -> Visit) {
+    pub fn walk(&self, light: LightPosition, point: &Box3, mut visit: impl FnMut(u32) -> Visit) {
         if self.nodes.is_empty() {
             return;
         }
@@ -108,25 +109,52 @@ pub enum Visit {
     Stop,
 }
 
-/// A segment whose far end is known within a box.
+/// A segment from a light to a point that is known within a box.
 struct Segment {
-    light: DVec3,
+    /// A box around it, infinite where the light is infinitely far away.
     low: DVec3,
     high: DVec3,
-    /// From the light to somewhere in the box.
+    /// A point of its line: the light, or somewhere in the point's box if that is infinitely far away.
+    anchor: DVec3,
+    /// How far the anchor may be off, coordinate by coordinate.
+    anchor_doubt: DVec3,
+    /// Along the line.
     direction: DVec3,
     /// How far the direction may be off, coordinate by coordinate.
     doubt: DVec3,
 }
 
 impl Segment {
-    fn new(light: Vec3, point: &Box3) -> Segment {
-        let light = light.as_dvec3();
+    fn new(light: LightPosition, point: &Box3) -> Segment {
         let ends = |end: fn(&Interval) -> f64| DVec3::new(end(&point[0]), end(&point[1]), end(&point[2]));
         let (low, high) = (ends(|i| i.low), ends(|i| i.high));
-        let direction = (low * 0.5 + high * 0.5) - light;
-        let doubt = (high - low) + (low.abs().max(high.abs()) + light.abs()) * ROUNDING;
-        Segment { light, low: low.min(light), high: high.max(light), direction, doubt }
+        let middle = low * 0.5 + high * 0.5;
+        match light {
+            LightPosition::At(light) => {
+                let light = light.as_dvec3();
+                let doubt = (high - low) + (low.abs().max(high.abs()) + light.abs()) * ROUNDING;
+                Segment {
+                    low: low.min(light),
+                    high: high.max(light),
+                    anchor: light,
+                    anchor_doubt: DVec3::ZERO,
+                    direction: middle - light,
+                    doubt,
+                }
+            }
+            LightPosition::Towards(direction) => {
+                let direction = direction.as_dvec3();
+                let infinite = DVec3::INFINITY;
+                Segment {
+                    low: DVec3::select(direction.cmplt(DVec3::ZERO), -infinite, low),
+                    high: DVec3::select(direction.cmpgt(DVec3::ZERO), infinite, high),
+                    anchor: middle,
+                    anchor_doubt: (high - low) + low.abs().max(high.abs()) * ROUNDING,
+                    direction,
+                    doubt: DVec3::ZERO,
+                }
+            }
+        }
     }
 
     /// Whether the segment certainly does not meet a box.
@@ -134,11 +162,11 @@ impl Segment {
         if self.high.cmplt(low).any() || self.low.cmpgt(high).any() {
             return true;
         }
-        let centre = low * 0.5 + high * 0.5 - self.light;
+        let centre = low * 0.5 + high * 0.5 - self.anchor;
         let half = (high - low) * 0.5;
-        // Largest coordinates of the box relative to the light, and what rounding does to its centre.
+        // Largest coordinates of the box relative to the anchor, and what rounding does to its centre.
         let far = centre.abs() + half;
-        let centre_error = (low.abs() + high.abs() + self.light.abs()) * ROUNDING;
+        let centre_error = (low.abs() + high.abs() + self.anchor.abs()) * ROUNDING + self.anchor_doubt;
         [(0, 1), (1, 2), (2, 0)].into_iter().any(|(i, j)| {
             let (di, dj) = (self.direction[i].abs(), self.direction[j].abs());
             let distance = (self.direction[i] * centre[j] - self.direction[j] * centre[i]).abs();

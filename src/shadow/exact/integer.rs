@@ -1,6 +1,6 @@
 //! Exact geometry in big integers: all coordinates of a problem times one power of two.
 
-use crate::geometry::ExactPosition;
+use crate::geometry::{ExactPosition, LightPosition};
 use dashu_int::IBig;
 use glam::Vec3;
 
@@ -77,7 +77,44 @@ pub fn sign(value: &IBig) -> i32 {
     }
 }
 
-/// An exact point relative to a light: xyz / w with w > 0, in units of a scale.
+/// A light in units of a scale.
+#[derive(Debug, Clone)]
+pub enum IntegerLight {
+    /// At a point.
+    At(IntegerVector),
+    /// Infinitely far away in a direction; its scale is its own, since only signs with it matter.
+    Towards(IntegerVector),
+}
+
+impl IntegerLight {
+    /// A light, at a point in the given scale.
+    pub fn new(light: LightPosition, scale: Scale) -> IntegerLight {
+        match light {
+            LightPosition::At(point) => IntegerLight::At(scale.point(point)),
+            LightPosition::Towards(direction) => {
+                IntegerLight::Towards(Scale::of([direction]).point(direction))
+            }
+        }
+    }
+
+    /// What points are taken relative to: the light, or the origin.
+    pub fn origin(&self) -> IntegerVector {
+        match self {
+            IntegerLight::At(point) => point.clone(),
+            IntegerLight::Towards(_) => [IBig::ZERO, IBig::ZERO, IBig::ZERO],
+        }
+    }
+}
+
+/// The scale that a light's position asks for.
+pub fn scale_of_light(light: LightPosition) -> Scale {
+    match light {
+        LightPosition::At(point) => Scale::of([point]),
+        LightPosition::Towards(_) => Scale::of([]),
+    }
+}
+
+/// An exact point relative to the origin of a light: xyz / w with w > 0, in units of a scale.
 #[derive(Debug, Clone)]
 pub struct RelativePoint {
     /// Numerators.
@@ -87,17 +124,17 @@ pub struct RelativePoint {
 }
 
 impl RelativePoint {
-    /// The position minus the light.
-    pub fn new(position: &ExactPosition, light: Vec3, scale: Scale) -> RelativePoint {
-        let light = scale.point(light);
+    /// The position minus the origin.
+    pub fn new(position: &ExactPosition, light: &IntegerLight, scale: Scale) -> RelativePoint {
+        let from = light.origin();
         match *position {
-            ExactPosition::Bare(p) => RelativePoint { xyz: minus(&scale.point(p), &light), w: IBig::ONE },
+            ExactPosition::Bare(p) => RelativePoint { xyz: minus(&scale.point(p), &from), w: IBig::ONE },
             ExactPosition::OnRay { origin, direction, triangle } => {
                 let [a, b, c] = triangle.map(|p| scale.point(p));
                 let (o, d) = (scale.point(origin), scale.point(direction));
                 let normal = cross(&minus(&b, &a), &minus(&c, &a));
                 let (t, w) = (dot(&normal, &minus(&a, &o)), dot(&normal, &d));
-                let start = minus(&o, &light);
+                let start = minus(&o, &from);
                 let xyz = [0, 1, 2].map(|i| &start[i] * &w + &t * &d[i]);
                 if sign(&w) < 0 {
                     RelativePoint { xyz: xyz.map(|x| -x), w: -w }
@@ -109,15 +146,61 @@ impl RelativePoint {
     }
 }
 
-/// The scale of a light and everything that a position is made of.
-pub fn scale_of(position: &ExactPosition, light: Vec3) -> Scale {
+/// The scale of everything that a position is made of, and of a light.
+pub fn scale_of(position: &ExactPosition, light: LightPosition) -> Scale {
     let own = match *position {
         ExactPosition::Bare(p) => Scale::of([p]),
         ExactPosition::OnRay { origin, direction, triangle } => {
             Scale::of([origin, direction].into_iter().chain(triangle))
         }
     };
-    own.finer(Scale::of([light]))
+    own.finer(scale_of_light(light))
+}
+
+/// The planes of a triangle as a light sees it, turned so that the light is on the negative side of the
+/// triangle's own.
+#[derive(Debug, Clone)]
+pub struct LitTriangle {
+    /// Normals of the planes through the light and an edge, positive inside, and their values on the edge.
+    pub edges: [(IntegerVector, IBig); 3],
+    /// The triangle's own plane, and its value there.
+    pub own: (IntegerVector, IBig),
+}
+
+impl LitTriangle {
+    /// `None` if the triangle's plane holds the light.
+    pub fn new(light: &IntegerLight, corners: [Vec3; 3], scale: Scale) -> Option<LitTriangle> {
+        let from = light.origin();
+        let u = corners.map(|c| minus(&scale.point(c), &from));
+        let normal = cross(&minus(&u[1], &u[0]), &minus(&u[2], &u[0]));
+        let height = dot(&normal, &u[0]);
+        // For a light at a point the first terms alone are left: edge planes hold the origin.
+        let (away, edges) = match light {
+            IntegerLight::At(_) => {
+                let edge = |i: usize, j: usize| (cross(&u[i], &u[j]), IBig::ZERO);
+                (sign(&height), [edge(0, 1), edge(1, 2), edge(2, 0)])
+            }
+            IntegerLight::Towards(direction) => {
+                let edge = |i: usize, j: usize| {
+                    let normal = cross(&minus(&u[j], &u[i]), direction);
+                    let value = dot(&normal, &u[i]);
+                    (normal, value)
+                };
+                (-sign(&dot(&normal, direction)), [edge(0, 1), edge(1, 2), edge(2, 0)])
+            }
+        };
+        let turned = |(normal, value): (IntegerVector, IBig)| (normal.map(|x| -x), -value);
+        match away {
+            0 => None,
+            1 => Some(LitTriangle { edges, own: (normal, height) }),
+            _ => Some(LitTriangle { edges: edges.map(turned), own: turned((normal, height)) }),
+        }
+    }
+}
+
+/// The side of a plane, given by normal and value, that a point is on: -1, 0 or 1.
+pub fn side((normal, value): &(IntegerVector, IBig), point: &RelativePoint) -> i32 {
+    sign(&(dot(normal, &point.xyz) - value * &point.w))
 }
 
 /// How a closed triangle lies to the open segment between a light and a point.
@@ -134,30 +217,20 @@ pub enum Meeting {
 }
 
 /// Meets a triangle exactly, by the definition of TRUTH, "Occluded".
-pub fn meet(light: Vec3, corners: [Vec3; 3], position: &ExactPosition) -> Meeting {
+pub fn meet(light: LightPosition, corners: [Vec3; 3], position: &ExactPosition) -> Meeting {
     let scale = scale_of(position, light).finer(Scale::of(corners));
-    let point = RelativePoint::new(position, light, scale);
-    let origin = scale.point(light);
-    let u = corners.map(|c| minus(&scale.point(c), &origin));
-    let volume = sign(&dot(&u[0], &cross(&u[1], &u[2])));
-    if volume == 0 {
-        return Meeting::Misses;
-    }
+    let light = IntegerLight::new(light, scale);
+    let point = RelativePoint::new(position, &light, scale);
+    let Some(triangle) = LitTriangle::new(&light, corners, scale) else { return Meeting::Misses };
     let mut boundary = Vec::new();
-    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-        let edge = cross(&u[i], &u[j]);
-        let edge = if volume < 0 { edge.map(|x| -x) } else { edge };
-        match sign(&dot(&edge, &point.xyz)) {
+    for edge in triangle.edges {
+        match side(&edge, &point) {
             -1 => return Meeting::Misses,
-            0 => boundary.push(edge),
+            0 => boundary.push(edge.0),
             _ => {}
         }
     }
-    // The triangle's plane: positive beyond it, seen from the light.
-    let normal = cross(&minus(&u[1], &u[0]), &minus(&u[2], &u[0]));
-    let height = dot(&normal, &u[0]);
-    let depth = dot(&normal, &point.xyz) - height * &point.w;
-    match sign(&depth) * volume {
+    match side(&triangle.own, &point) {
         1 if boundary.is_empty() => Meeting::Interior,
         1 => Meeting::Boundary(boundary),
         0 => Meeting::EndsOn,

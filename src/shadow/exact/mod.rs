@@ -12,8 +12,8 @@ mod touching;
 
 use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
 use crate::error::Result;
-use crate::geometry::ExactPosition;
-use crate::scene::Scene;
+use crate::geometry::{ExactPosition, LightPosition};
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::{PointSource, SurfacePoint};
 use glam::Vec3;
 use hierarchy::{Hierarchy, Visit};
@@ -60,7 +60,9 @@ pub enum Contact {
 /// Decides every query of one light.
 pub struct Arbiter<'a> {
     scene: &'a Scene,
-    light: Vec3,
+    light: LightPosition,
+    /// What casts.
+    triangles: Vec<PrimitiveIndex>,
     hierarchy: Hierarchy,
     planes: Vec<IntervalPlanes>,
     /// Whether the light itself lies on a triangle.
@@ -68,33 +70,46 @@ pub struct Arbiter<'a> {
 }
 
 impl<'a> Arbiter<'a> {
-    /// Prepares the hierarchy over all triangles.
+    /// Prepares the hierarchy over all triangles that cast.
     pub fn new(input: &BuildInput<'a>) -> Arbiter<'a> {
         let scene = input.scene;
-        let triangles: Vec<_> = (0..scene.triangles.len() as u32).map(|t| scene.corners(t)).collect();
-        let hierarchy = Hierarchy::new(&triangles);
-        let planes = triangles.par_iter().map(|&corners| IntervalPlanes::new(input.light, corners)).collect();
-        let mut arbiter =
-            Arbiter { scene, light: input.light, hierarchy, planes, light_contact: Contact::Clear };
+        let triangles: Vec<_> =
+            (0..scene.triangles.len() as u32).filter(|&t| scene.object(t).shadowing.casts).collect();
+        let corners: Vec<_> = triangles.iter().map(|&t| scene.corners(t)).collect();
+        let hierarchy = Hierarchy::new(&corners);
+        let planes = corners.par_iter().map(|&corners| IntervalPlanes::new(input.light, corners)).collect();
+        let mut arbiter = Arbiter {
+            scene,
+            light: input.light,
+            triangles,
+            hierarchy,
+            planes,
+            light_contact: Contact::Clear,
+        };
         arbiter.light_contact = arbiter.contact_of_light();
         arbiter
     }
 
     /// A light on a triangle is the end of every segment: seen from any other point it "ends on" it.
     fn contact_of_light(&self) -> Contact {
-        let position = ExactPosition::Bare(self.light);
+        let LightPosition::At(light) = self.light else { return Contact::Clear };
+        let position = ExactPosition::Bare(light);
         let mut contact = Contact::Clear;
-        self.hierarchy.walk(self.light, &interval::point(self.light), |t| {
-            let corners = self.scene.corners(t);
-            // An eye off the triangle's plane decides whether the light lies on it.
-            let eyes = [Vec3::X, Vec3::Y, Vec3::Z]
-                .map(|axis| self.light + axis * self.light.abs().max_element().max(1.0));
-            if eyes.into_iter().any(|eye| integer::meet(eye, corners, &position) == Meeting::EndsOn) {
+        self.hierarchy.walk(self.light, &interval::point(light), |t| {
+            let corners = self.corners(t);
+            // A direction off the triangle's plane decides whether the light lies on it.
+            let directions = [Vec3::X, Vec3::Y, Vec3::Z].map(LightPosition::Towards);
+            if directions.into_iter().any(|eye| integer::meet(eye, corners, &position) == Meeting::EndsOn) {
                 contact = Contact::Touching;
             }
             Visit::Continue
         });
         contact
+    }
+
+    /// The corners of a triangle that casts.
+    fn corners(&self, casting: u32) -> [Vec3; 3] {
+        self.scene.corners(self.triangles[casting as usize])
     }
 
     /// The truth about one point.
@@ -112,10 +127,10 @@ impl<'a> Arbiter<'a> {
         let mut ends_on = false;
         self.hierarchy.walk(self.light, &absolute, |t| {
             // The receiver lies in its own plane, where nothing blocks.
-            if receiver == Some(t) {
+            if receiver == Some(self.triangles[t as usize]) {
                 return Visit::Continue;
             }
-            let corners = self.scene.corners(t);
+            let corners = self.corners(t);
             let meeting = self.planes[t as usize]
                 .meet(&relative)
                 .unwrap_or_else(|| integer::meet(self.light, corners, &position));
@@ -144,9 +159,17 @@ impl<'a> Arbiter<'a> {
     }
 }
 
-/// An interval box around the exact point minus the light.
-fn relative_box(position: &ExactPosition, light: Vec3) -> Box3 {
-    let light = interval::point(light);
+/// What points are taken relative to in intervals: the light, or the origin.
+fn origin_of(light: LightPosition) -> Box3 {
+    match light {
+        LightPosition::At(point) => interval::point(point),
+        LightPosition::Towards(_) => interval::point(Vec3::ZERO),
+    }
+}
+
+/// An interval box around the exact point minus the origin.
+fn relative_box(position: &ExactPosition, light: LightPosition) -> Box3 {
+    let light = origin_of(light);
     match *position {
         ExactPosition::Bare(p) => minus(&interval::point(p), &light),
         ExactPosition::OnRay { origin, direction, triangle } => {
@@ -160,50 +183,72 @@ fn relative_box(position: &ExactPosition, light: Vec3) -> Box3 {
     }
 }
 
-fn absolute_box(relative: &Box3, light: Vec3) -> Box3 {
-    let light = interval::point(light);
+fn absolute_box(relative: &Box3, light: LightPosition) -> Box3 {
+    let light = origin_of(light);
     [0, 1, 2].map(|i| relative[i] + light[i])
 }
 
-/// The planes of a triangle relative to the light, in intervals and oriented away from it.
+/// The planes of a triangle in intervals, oriented away from the light.
 #[derive(Debug, Clone)]
 struct IntervalPlanes {
     /// Through the light and an edge, positive inside; `None` if the triangle's plane holds the light or
     /// intervals cannot tell, so that integers decide.
     edges: Option<[Box3; 3]>,
     normal: Box3,
-    corner: Box3,
+    /// Corners relative to the origin.
+    corners: [Box3; 3],
+    /// Whether the planes of the edges hold the origin, as they do if that is the light.
+    edges_through: EdgesThrough,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum EdgesThrough {
+    Origin,
+    Corners,
 }
 
 impl IntervalPlanes {
-    fn new(light: Vec3, corners: [Vec3; 3]) -> IntervalPlanes {
-        let light = interval::point(light);
+    fn new(light: LightPosition, corners: [Vec3; 3]) -> IntervalPlanes {
+        let from = origin_of(light);
         let corner = corners.map(interval::point);
-        let u = corner.map(|c| minus(&c, &light));
+        let u = corner.map(|c| minus(&c, &from));
         let normal = cross(&minus(&corner[1], &corner[0]), &minus(&corner[2], &corner[0]));
-        let edges = [cross(&u[0], &u[1]), cross(&u[1], &u[2]), cross(&u[2], &u[0])];
-        let turn = |v: Box3| v.map(|x| -x);
-        match dot(&normal, &u[0]).decided() {
-            Decided::Above => IntervalPlanes { edges: Some(edges), normal, corner: u[0] },
-            Decided::Below => {
-                IntervalPlanes { edges: Some(edges.map(turn)), normal: turn(normal), corner: u[0] }
+        let (edges, away, edges_through) = match light {
+            LightPosition::At(_) => {
+                let edges = [cross(&u[0], &u[1]), cross(&u[1], &u[2]), cross(&u[2], &u[0])];
+                (edges, dot(&normal, &u[0]), EdgesThrough::Origin)
             }
-            Decided::Open => IntervalPlanes { edges: None, normal, corner: u[0] },
-        }
+            LightPosition::Towards(direction) => {
+                let direction = interval::point(direction);
+                let edge = |i: usize, j: usize| cross(&minus(&corner[j], &corner[i]), &direction);
+                ([edge(0, 1), edge(1, 2), edge(2, 0)], -dot(&normal, &direction), EdgesThrough::Corners)
+            }
+        };
+        let turn = |v: Box3| v.map(|x| -x);
+        let (edges, normal) = match away.decided() {
+            Decided::Above => (Some(edges), normal),
+            Decided::Below => (Some(edges.map(turn)), turn(normal)),
+            Decided::Open => (None, normal),
+        };
+        IntervalPlanes { edges, normal, corners: u, edges_through }
     }
 
-    /// How a point relative to the light meets the triangle, as far as intervals decide; boundaries and
+    /// How a point relative to the origin meets the triangle, as far as intervals decide; boundaries and
     /// ends are left to integers.
     fn meet(&self, point: &Box3) -> Option<Meeting> {
         let mut inside = true;
-        for edge in self.edges.as_ref()? {
-            match dot(edge, point).decided() {
+        for (edge, corner) in self.edges.as_ref()?.iter().zip(&self.corners) {
+            let value = match self.edges_through {
+                EdgesThrough::Origin => dot(edge, point),
+                EdgesThrough::Corners => dot(edge, &minus(point, corner)),
+            };
+            match value.decided() {
                 Decided::Below => return Some(Meeting::Misses),
                 Decided::Above => {}
                 Decided::Open => inside = false,
             }
         }
-        match dot(&self.normal, &minus(point, &self.corner)).decided() {
+        match dot(&self.normal, &minus(point, &self.corners[0])).decided() {
             Decided::Below => Some(Meeting::Misses),
             Decided::Above if inside => Some(Meeting::Interior),
             _ => None,

@@ -5,27 +5,34 @@
 //! the full turn, moving the segment a little still hits: the surface is tight there. Otherwise the segment
 //! touches a silhouette or a rim.
 
-use super::integer::{IntegerVector, Meeting, RelativePoint, Scale, cross, dot, meet, minus, scale_of, sign};
-use crate::geometry::ExactPosition;
+use super::integer::{
+    IntegerLight, IntegerVector, Meeting, RelativePoint, Scale, cross, dot, meet, minus, scale_of, sign,
+};
+use crate::geometry::{ExactPosition, LightPosition};
 use dashu_int::IBig;
 use glam::Vec3;
 
 /// Whether the triangles, all met on their boundaries only, leave a gap at each point where the segment
 /// meets them.
-pub fn leaves_a_gap(light: Vec3, position: &ExactPosition, met: &[[Vec3; 3]]) -> bool {
+pub fn leaves_a_gap(light: LightPosition, position: &ExactPosition, met: &[[Vec3; 3]]) -> bool {
     let scale = met.iter().fold(scale_of(position, light), |s, corners| s.finer(Scale::of(*corners)));
-    let point = RelativePoint::new(position, light, scale);
+    let integer_light = IntegerLight::new(light, scale);
+    let point = RelativePoint::new(position, &integer_light, scale);
     let mut groups: Vec<Place> = Vec::new();
     for &corners in met {
         let Meeting::Boundary(edges) = meet(light, corners, position) else { continue };
-        let fraction = fraction_along(light, corners, &point, scale);
+        let fraction = fraction_along(&integer_light, corners, &point, scale);
         let wedge = Wedge { edges };
         match groups.iter_mut().find(|place| place.fraction.equals(&fraction)) {
             Some(place) => place.wedges.push(wedge),
             None => groups.push(Place { fraction, wedges: vec![wedge] }),
         }
     }
-    !groups.iter().any(|place| covers_full_turn(&place.wedges, &point.xyz))
+    let axis = match integer_light {
+        IntegerLight::At(_) => point.xyz,
+        IntegerLight::Towards(direction) => direction,
+    };
+    !groups.iter().any(|place| covers_full_turn(&place.wedges, &axis))
 }
 
 /// A point of the segment and what meets it there.
@@ -46,12 +53,19 @@ impl Fraction {
     }
 }
 
-/// Where between light (0) and point (1) the segment meets the plane, up to a factor common to all planes.
-fn fraction_along(light: Vec3, corners: [Vec3; 3], point: &RelativePoint, scale: Scale) -> Fraction {
-    let origin = scale.point(light);
-    let u = corners.map(|c| minus(&scale.point(c), &origin));
+/// Where the segment meets the plane of a triangle: for a light at a point, its share from there to the
+/// point, otherwise how far from the point towards the light; up to a factor common to all planes.
+fn fraction_along(light: &IntegerLight, corners: [Vec3; 3], point: &RelativePoint, scale: Scale) -> Fraction {
+    let from = light.origin();
+    let u = corners.map(|c| minus(&scale.point(c), &from));
     let normal = cross(&minus(&u[1], &u[0]), &minus(&u[2], &u[0]));
-    let (numerator, denominator) = (dot(&normal, &u[0]), dot(&normal, &point.xyz));
+    let height = dot(&normal, &u[0]);
+    let (numerator, denominator) = match light {
+        IntegerLight::At(_) => (height, dot(&normal, &point.xyz)),
+        IntegerLight::Towards(direction) => {
+            (height * &point.w - dot(&normal, &point.xyz), dot(&normal, direction))
+        }
+    };
     if sign(&denominator) < 0 {
         Fraction { numerator: -numerator, denominator: -denominator }
     } else {
@@ -96,17 +110,21 @@ fn covers_full_turn(wedges: &[Wedge], axis: &IntegerVector) -> bool {
 mod tests {
     use super::*;
 
-    const LIGHT: Vec3 = Vec3::new(0.0, 0.0, 8.0);
-
+    /// The same for a light above, near or infinitely far away: the points are straight below what they meet.
     fn gap(point: [f32; 3], met: &[[Vec3; 3]]) -> bool {
-        leaves_a_gap(LIGHT, &ExactPosition::Bare(Vec3::from(point)), met)
+        let position = Vec3::from(point);
+        let above = Vec3::new(position.x, position.y, 8.0);
+        let [near, far] = [LightPosition::At(above), LightPosition::Towards(Vec3::Z)]
+            .map(|light| leaves_a_gap(light, &ExactPosition::Bare(position), met));
+        assert_eq!(near, far);
+        near
     }
 
     #[test]
     fn the_edge_of_one_sheet_leaves_a_gap_and_a_shared_edge_does_not() {
         let left = [Vec3::ZERO, Vec3::Y, Vec3::NEG_X];
         let right = [Vec3::ZERO, Vec3::Y, Vec3::X];
-        // Through (0, 1/4, 0), on both triangles' common edge.
+        // Through (0, 1/2, 0), on both triangles' common edge.
         let below = [0.0, 0.5, -8.0];
         assert!(gap(below, &[left]));
         assert!(!gap(below, &[left, right]));

@@ -1,7 +1,6 @@
 //! Checks a finished buffer against its own definition.
 
-use super::cube;
-use super::{FaceLists, LightBuffer, Record};
+use super::{LightBuffer, Record, SideLists};
 use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use glam::Vec3;
@@ -26,7 +25,7 @@ impl LightBuffer<'_> {
     /// The first violation, in words.
     pub fn validate(&self) -> Result<Audit, String> {
         let mut audit = Audit { cells: 0, records: 0, directions: 0 };
-        for lists in self.faces.iter().flatten() {
+        for lists in self.sides.iter().flatten() {
             self.validate_lists(lists, &mut audit)?;
         }
         for caster in 0..self.casters.primitives.len() as u32 {
@@ -41,7 +40,7 @@ impl LightBuffer<'_> {
         Ok(audit)
     }
 
-    fn validate_lists(&self, lists: &FaceLists, audit: &mut Audit) -> Result<(), String> {
+    fn validate_lists(&self, lists: &SideLists, audit: &mut Audit) -> Result<(), String> {
         let cells = lists.count[0] as usize * lists.count[1] as usize;
         if lists.headers.len() != cells + 1 || lists.headers[cells].start as usize != lists.records.len() {
             return Err("headers do not span the records".into());
@@ -55,7 +54,7 @@ impl LightBuffer<'_> {
                 return Err(format!("cell {cell}: records out of order"));
             }
             let casters = self.casters.planes.len();
-            let is_sound = |r: &Record| r.near >= 0.0 && (r.caster as usize) < casters;
+            let is_sound = |r: &Record| r.near.is_finite() && (r.caster as usize) < casters;
             if !list.iter().all(is_sound) {
                 return Err(format!("cell {cell}: a record without depth or caster"));
             }
@@ -73,13 +72,14 @@ impl LightBuffer<'_> {
     fn validate_presence(&self, caster: u32, corners: [Vec3; 3], point: Vec3) -> Result<(), String> {
         // The centre is rounded and may lie beside a needle; only cells that the triangle meets count.
         let is_corner = corners.contains(&point);
-        let query = PreciseQuery::new(self.light, point.as_dvec3(), || ExactPosition::Bare(point));
+        let space = &self.casters.space;
+        let query = PreciseQuery::new(space, point.as_dvec3(), || ExactPosition::Bare(point));
         let resolution = self.statistics.resolution;
-        let Some((at, _)) = cube::locate(self.light, point.as_dvec3(), resolution, &query) else {
+        let Some((at, _)) = self.cells.locate(space, point.as_dvec3(), resolution, &query) else {
             return Ok(());
         };
         let missing = || format!("caster {caster}: missing at {point} in cell {} {}", at.column, at.row);
-        let lists = self.faces[at.face.index()].as_ref();
+        let lists = self.sides[at.side].as_ref();
         let Some((lists, cell)) = lists.and_then(|l| Some((l, l.cell(at.column, at.row)?))) else {
             return if is_corner { Err(missing()) } else { Ok(()) };
         };

@@ -1,26 +1,27 @@
 //! Casting: every triangle into every cell that its projection can touch, then one list a cell.
 //!
-//! Faces are made only where triangles project, and of a face only the rectangle of cells that they touch.
+//! Sides are made only where triangles project, and of a side only the rectangle of cells that they touch.
 //! Lists stand end to end in one array (compressed rows), their starts and the full-occlusion depths in
 //! another.
 
 use super::cell::{self, Candidate, Cover, Dropped};
+use super::cells::{Cells, side_grid};
 use super::convex_cover::ConvexObjects;
-use super::cube::{Face, face_grid};
-use super::{FaceLists, Header, Record, Statistics};
+use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
-use crate::geometry::footprint::{Footprint, Grid};
-use crate::geometry::ray_triangle::RayTriangle;
+use crate::geometry::footprint::{Footprint, Frame, Grid};
+use crate::geometry::planes::{OrientedPlanes, oriented};
 use crate::shadow::{BuildInput, Casters, Receivers};
+use glam::Vec3;
 use rayon::prelude::*;
 
-/// A caster's projection on one face.
+/// A caster's projection on one side.
 pub(super) struct Cast {
     pub caster: u32,
     pub footprint: Footprint,
 }
 
-/// The part of a face that triangles project on: first column and row, and their numbers.
+/// The part of a side that triangles project on: first column and row, and their numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     pub columns: [u32; 2],
@@ -46,19 +47,21 @@ impl Window {
     }
 }
 
-/// Casts all casters on all faces.
+/// Casts all casters on all sides.
 pub(super) fn build(
     input: &BuildInput,
     casters: &Casters,
+    cells: &Cells,
     resolution: u32,
-) -> Result<([Option<FaceLists>; 6], Statistics)> {
-    let grid = face_grid(resolution);
+) -> Result<(Vec<Option<SideLists>>, Statistics)> {
+    let grid = side_grid(resolution);
     let convex = ConvexObjects::new(input, casters);
     let mut statistics = Statistics { resolution, ..Statistics::default() };
-    let mut faces = [const { None }; 6];
-    for face in Face::ALL {
-        let casts = project(input, casters, face, &grid);
+    let mut sides = Vec::with_capacity(cells.sides());
+    for side in 0..cells.sides() {
+        let casts = project(input, casters, &cells.frame(side), &grid);
         if casts.is_empty() {
+            sides.push(None);
             continue;
         }
         let window = Window::around(&casts);
@@ -67,20 +70,20 @@ pub(super) fn build(
             .into_par_iter()
             .map(|rows| fill_band(&casts, &grid, &window, rows, input.receivers, &convex))
             .collect();
-        faces[face.index()] = Some(join(&window, lists, &mut statistics)?);
+        sides.push(Some(join(&window, lists, &mut statistics)?));
     }
-    Ok((faces, statistics))
+    Ok((sides, statistics))
 }
 
-fn project(input: &BuildInput, casters: &Casters, face: Face, grid: &Grid) -> Vec<Cast> {
-    let frame = face.frame();
+fn project(input: &BuildInput, casters: &Casters, frame: &Frame, grid: &Grid) -> Vec<Cast> {
     casters
         .primitives
         .par_iter()
         .enumerate()
         .filter_map(|(caster, &primitive)| {
-            let triangle = RayTriangle::new(input.light, input.scene.corners(primitive))?;
-            let footprint = Footprint::new(grid, &frame, triangle.planes())?;
+            let corners = oriented(casters.space.light(), input.scene.corners(primitive))?;
+            let planes = OrientedPlanes::new(&casters.space, corners.map(Vec3::as_dvec3));
+            let footprint = Footprint::new(grid, frame, &planes)?;
             Some(Cast { caster: caster as u32, footprint })
         })
         .collect()
@@ -190,27 +193,27 @@ fn candidate(cast: &Cast, grid: &Grid, column: u32, row: u32) -> Candidate {
     Candidate { near: round_down(near), far: round_up(far), caster: cast.caster, cover }
 }
 
-/// The largest f32 not above a non-negative number.
+/// The largest f32 not above a number.
 pub(super) fn round_down(value: f64) -> f32 {
     let rounded = value as f32;
     if f64::from(rounded) > value { rounded.next_down() } else { rounded }
 }
 
-/// The smallest f32 not below a non-negative number.
+/// The smallest f32 not below a number.
 pub(super) fn round_up(value: f64) -> f32 {
     let rounded = value as f32;
     if f64::from(rounded) < value { rounded.next_up() } else { rounded }
 }
 
 /// Bands end to end.
-fn join(window: &Window, bands: Vec<Band>, statistics: &mut Statistics) -> Result<FaceLists> {
+fn join(window: &Window, bands: Vec<Band>, statistics: &mut Statistics) -> Result<SideLists> {
     let records: usize = bands.iter().map(|b| b.records.len()).sum();
     if u32::try_from(records).is_err() {
         return Err(Error::Usage(format!(
-            "light buffer: {records} records on one face; choose a lower --resolution"
+            "light buffer: {records} records on one side; choose a lower --resolution"
         )));
     }
-    let mut lists = FaceLists {
+    let mut lists = SideLists {
         first: [window.columns[0], window.rows[0]],
         count: [window.width() as u32, window.height() as u32],
         headers: Vec::with_capacity(window.width() * window.height() + 1),
@@ -223,7 +226,7 @@ fn join(window: &Window, bands: Vec<Band>, statistics: &mut Statistics) -> Resul
         statistics.join(&band.statistics);
     }
     lists.headers.push(Header { start: lists.records.len() as u32, full_occlusion: f32::INFINITY });
-    statistics.faces += 1;
+    statistics.sides += 1;
     Ok(lists)
 }
 

@@ -1,7 +1,7 @@
 //! Full occlusion by a convex object of several triangles (row 9 of the notes on the 1986 paper).
 //!
-//! The directions that pass through a convex solid form a convex cone. If the four corners of a cell lie
-//! strictly inside its projection, so does the whole cell, and every direction of the cell enters the solid
+//! The rays of a light that pass through a convex solid form a convex set. If the four corners of a cell lie
+//! strictly inside its projection, so does the whole cell, and every ray of the cell enters the solid
 //! through a triangle whose outer side the light is strictly on: whatever is deeper than all such triangles
 //! of the solid in the cell is dark.
 
@@ -9,7 +9,7 @@ use super::cell::{Candidate, Cover};
 use crate::geometry::Sign;
 use crate::geometry::convexity::Surface;
 use crate::geometry::footprint::{Footprint, Grid};
-use crate::geometry::light_triangle::orientation;
+use crate::geometry::planes::orientation;
 use crate::scene::{Object, PrimitiveIndex};
 use crate::shadow::{BuildInput, Casters};
 
@@ -68,7 +68,7 @@ impl ConvexObjects {
                 let inside = |x: f64, y: f64| object.iter().any(|&(_, k)| footprint(k).contains(x, y));
                 grid.corners(column, row).iter().all(|&[x, y]| inside(x, y))
             })
-            .map(|object| object.iter().map(|&(_, k)| candidates[k].far).fold(0.0, f32::max))
+            .map(|object| object.iter().map(|&(_, k)| candidates[k].far).fold(f32::NEG_INFINITY, f32::max))
             .fold(f32::INFINITY, f32::min)
     }
 }

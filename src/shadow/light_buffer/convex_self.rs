@@ -1,7 +1,7 @@
 //! A convex object does not shadow itself (row 16 of the notes on the 1986 paper).
 
 use crate::geometry::Sign;
-use crate::geometry::light_triangle::orientation;
+use crate::geometry::planes::orientation;
 use crate::scene::PrimitiveIndex;
 use crate::shadow::BuildInput;
 use rayon::prelude::*;

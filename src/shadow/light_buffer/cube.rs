@@ -1,12 +1,11 @@
-//! The cube of cells around a light, and the proven look-up of the cell that a point's direction lies in.
+//! The cube of cells around a light at a point (row 1 of the notes on the 1986 paper).
 //!
 //! Face m, sign s looks along the axis m towards s; the other two axes follow cyclically. Cell (i, j) of
 //! R x R is the closed set of directions with (2i - R) / R <= x' / z' <= (2i + 2 - R) / R, and so for y'.
-//! A direction on a border belongs to every cell that it touches, and any of them may be looked up, since
-//! triangles are entered into every closed cell that they meet (rows 1 and 13 of the notes).
 
+use super::cells::{Located, certain_index, coordinate_error, exact_index, magnitude};
 use crate::geometry::expansion::Expansion;
-use crate::geometry::footprint::{Frame, Grid};
+use crate::geometry::footprint::Frame;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::position::HomogeneousPoint;
 use crate::geometry::{ExactPosition, Sign};
@@ -47,7 +46,7 @@ impl Face {
     /// The axes x', y' and z' of the face.
     pub fn frame(self) -> Frame {
         let unit = |axis: usize| DVec3::from_array([0, 1, 2].map(|i| f64::from(u8::from(i == axis % 3))));
-        Frame::new(unit(self.axis + 1), unit(self.axis + 2), unit(self.axis) * self.sign())
+        Frame::perspective(unit(self.axis + 1), unit(self.axis + 2), unit(self.axis) * self.sign())
     }
 
     /// x', y' and z' of a vector.
@@ -75,37 +74,6 @@ impl Face {
     }
 }
 
-/// The cells of one face as a grid of closed boxes on the plane z' = 1, a little widened.
-pub fn face_grid(resolution: u32) -> Grid {
-    let cell = 2.0 / f64::from(resolution);
-    Grid {
-        origin: [-1.0 + 0.5 * cell; 2],
-        step: [cell; 2],
-        half: [0.5 * cell * (1.0 + 1e-12) + 1e-14; 2],
-        count: [resolution; 2],
-    }
-}
-
-/// A cell, and an interval that holds the exact z' of the point that was looked up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Located {
-    /// The face.
-    pub face: Face,
-    /// Column along x'.
-    pub column: u32,
-    /// Row along y'.
-    pub row: u32,
-    /// At most the exact z'.
-    pub z_low: f64,
-    /// At least the exact z'.
-    pub z_high: f64,
-}
-
-/// Error of one coordinate relative to the light: half an ulp of the point and of the difference.
-fn coordinate_error(position: f64, relative: f64) -> f64 {
-    (position.abs() + relative.abs()) * f64::EPSILON
-}
-
 /// The cell of a point. `exact` is called only if rounding leaves the cell open; the flag says whether it
 /// was. A point in the light itself is in no cell.
 pub fn locate<F: Fn() -> ExactPosition>(
@@ -123,27 +91,20 @@ pub fn locate<F: Fn() -> ExactPosition>(
     let cells = f64::from(resolution);
     // In units of cells: the error of x' / z', of the division and of the scaling.
     let tolerance = cells * (2.0 * (error + z_error) / z + 8.0 * f64::EPSILON);
-    let index = |value: f64| {
-        let cell = (value / z + 1.0) * 0.5 * cells;
-        let whole = cell.floor();
-        let fraction = cell - whole;
-        let inside = whole >= 0.0 && whole < cells && fraction > tolerance && 1.0 - fraction > tolerance;
-        inside.then_some(whole as u32)
-    };
+    let index = |value: f64| certain_index(value / z, tolerance, resolution);
     if let (Some(column), Some(row)) = (index(x), index(y)) {
-        return Some((Located { face, column, row, z_low: z - z_error, z_high: z + z_error }, false));
+        return Some((
+            Located { side: face.index(), column, row, z_low: z - z_error, z_high: z + z_error },
+            false,
+        ));
     }
     locate_exactly(query.exact(), position, light, resolution).map(|located| (located, true))
 }
 
 /// The cell by exact signs of degree 4: R x' against (2k - R) z'.
 fn locate_exactly(p: &HomogeneousPoint, position: DVec3, light: Vec3, resolution: u32) -> Option<Located> {
-    let magnitude = |axis: usize| {
-        let value = &p.xyz[axis];
-        if value.sign() == Sign::Negative { -value } else { value.clone() }
-    };
     let larger = |a: usize, b: usize| {
-        if (&magnitude(a) - &magnitude(b)).sign() == Sign::Negative { b } else { a }
+        if (&magnitude(&p.xyz[a]) - &magnitude(&p.xyz[b])).sign() == Sign::Negative { b } else { a }
     };
     let axis = larger(larger(0, 1), 2);
     let direction = match p.xyz[axis].sign() {
@@ -156,26 +117,7 @@ fn locate_exactly(p: &HomogeneousPoint, position: DVec3, light: Vec3, resolution
     let (column, row) = (exact_index(&x, &z, resolution), exact_index(&y, &z, resolution));
     let relative = face.coordinates(position - light.as_dvec3())[2];
     let error = coordinate_error(face.coordinates(position)[2], relative);
-    Some(Located { face, column, row, z_low: relative - error, z_high: relative + error })
-}
-
-/// The largest k < R with R x >= (2k - R) z, for |x| <= z, by bisection.
-fn exact_index(x: &Expansion, z: &Expansion, resolution: u32) -> u32 {
-    let scaled = x * &Expansion::from(resolution as f32);
-    let at_or_above = |k: u32| {
-        let border = (2 * i64::from(k) - i64::from(resolution)) as f32;
-        (&scaled - &(z * &Expansion::from(border))).sign() != Sign::Negative
-    };
-    let (mut low, mut high) = (0, resolution);
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if at_or_above(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
+    Some(Located { side: face.index(), column, row, z_low: relative - error, z_high: relative + error })
 }
 
 #[cfg(test)]
@@ -184,9 +126,9 @@ mod tests {
 
     fn cell(direction: [f32; 3], resolution: u32) -> (usize, u32, u32) {
         let p = Vec3::from(direction);
-        let query = PreciseQuery::new(Vec3::ZERO, p.as_dvec3(), || ExactPosition::Bare(p));
+        let query = PreciseQuery::new(&Vec3::ZERO.into(), p.as_dvec3(), || ExactPosition::Bare(p));
         let (located, _) = locate(Vec3::ZERO, p.as_dvec3(), resolution, &query).unwrap();
-        (located.face.index(), located.column, located.row)
+        (located.side, located.column, located.row)
     }
 
     #[test]
@@ -218,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_point_in_the_light_has_no_cell() {
-        let query = PreciseQuery::new(Vec3::ONE, DVec3::ONE, || ExactPosition::Bare(Vec3::ONE));
+        let query = PreciseQuery::new(&Vec3::ONE.into(), DVec3::ONE, || ExactPosition::Bare(Vec3::ONE));
         assert_eq!(locate(Vec3::ONE, DVec3::ONE, 8, &query), None);
     }
 }

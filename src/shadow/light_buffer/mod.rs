@@ -1,5 +1,5 @@
 //! The light buffer of Haines and Greenberg (1986): a cube of cells around each light, each with a
-//! depth-sorted list of what can block it.
+//! depth-sorted list of what can block it. A light infinitely far away has a sheet of cells instead.
 //!
 //! Row numbers in these rooms are those of section 1 of the notes in ARCHITECTURE.md. The order of a query
 //! is the paper's: face and cell of the direction; the full-occlusion depth first; then the list from the
@@ -8,9 +8,11 @@
 mod audit;
 mod build;
 mod cell;
+pub mod cells;
 mod convex_cover;
 mod convex_self;
 pub mod cube;
+pub mod sheet;
 #[cfg(test)]
 mod tests;
 
@@ -22,9 +24,8 @@ use crate::geometry::occlusion::{PreciseQuery, Stage};
 use crate::geometry::{ExactPosition, Filtered, LightPoint};
 use crate::scene::Scene;
 use crate::visibility::SurfacePoint;
+use cells::{Cells, Located};
 use convex_self::HarmlessObjects;
-use cube::Located;
-use glam::Vec3;
 
 /// `light-buffer` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -58,9 +59,9 @@ struct Header {
     full_occlusion: f32,
 }
 
-/// The lists of the part of one face that triangles project on.
+/// The lists of the part of one side that triangles project on.
 #[derive(Debug, Clone)]
-struct FaceLists {
+struct SideLists {
     first: [u32; 2],
     count: [u32; 2],
     /// One a cell, row by row, and one behind the last.
@@ -68,7 +69,7 @@ struct FaceLists {
     records: Vec<Record>,
 }
 
-impl FaceLists {
+impl SideLists {
     /// Index of a cell's header; `None` outside the part that is stored, where nothing projects.
     fn cell(&self, column: u32, row: u32) -> Option<usize> {
         let (x, y) = (column.wrapping_sub(self.first[0]), row.wrapping_sub(self.first[1]));
@@ -90,8 +91,8 @@ impl FaceLists {
 pub struct Statistics {
     /// Cells along an edge of the cube.
     pub resolution: u32,
-    /// Faces that triangles project on.
-    pub faces: u64,
+    /// Sides that triangles project on.
+    pub sides: u64,
     /// Cells that are stored.
     pub cells: u64,
     /// Cells that at least one triangle touches, before anything was simplified.
@@ -115,11 +116,11 @@ pub struct Statistics {
 /// The light buffer of one light, good for every view of its scene.
 pub struct LightBuffer<'a> {
     scene: &'a Scene,
-    light: Vec3,
     receivers: Receivers,
     casters: Casters,
     harmless: HarmlessObjects,
-    faces: [Option<FaceLists>; 6],
+    cells: Cells,
+    sides: Vec<Option<SideLists>>,
     statistics: Statistics,
 }
 
@@ -139,14 +140,16 @@ impl<'a> LightBuffer<'a> {
                 )));
             }
         };
-        let (faces, statistics) = build::build(input, &casters, resolution)?;
+        let corners = casters.primitives.iter().flat_map(|&primitive| input.scene.corners(primitive));
+        let cells = Cells::new(&casters.space, corners);
+        let (sides, statistics) = build::build(input, &casters, &cells, resolution)?;
         Ok(LightBuffer {
             scene: input.scene,
-            light: input.light,
             receivers: input.receivers,
             casters,
             harmless: HarmlessObjects::new(input),
-            faces,
+            cells,
+            sides,
             statistics,
         })
     }
@@ -158,14 +161,15 @@ impl<'a> LightBuffer<'a> {
 
     /// Whether one point is occluded.
     fn is_occluded(&self, point: &SurfacePoint, counters: &mut Counters) -> bool {
-        let query = PreciseQuery::new(self.light, point.position, || point.exact(self.scene));
+        let space = &self.casters.space;
+        let query = PreciseQuery::new(space, point.position, || point.exact(self.scene));
         let resolution = self.statistics.resolution;
-        let Some((at, exactly)) = cube::locate(self.light, point.position, resolution, &query) else {
+        let Some((at, exactly)) = self.cells.locate(space, point.position, resolution, &query) else {
             return false;
         };
         counters.cells += 1;
         counters.exact += u64::from(exactly);
-        let Some(lists) = &self.faces[at.face.index()] else { return false };
+        let Some(lists) = &self.sides[at.side] else { return false };
         let Some(cell) = lists.cell(at.column, at.row) else { return false };
         let (full_occlusion, list) = lists.list(cell);
         if f64::from(full_occlusion) < at.z_low {
@@ -185,7 +189,7 @@ impl<'a> LightBuffer<'a> {
     ) -> bool {
         let base = point.primitive();
         let harmless = base.and_then(|base| self.harmless.of(base));
-        let relative = LightPoint::new(self.light, point.position);
+        let relative = LightPoint::new(&self.casters.space, point.position);
         counters.lists += u64::from(!list.is_empty());
         for record in list {
             // Lists are in ascending order of a lower bound: nothing further on can lie before the point.
@@ -234,15 +238,15 @@ impl ShadowTester for LightBuffer<'_> {
     fn bytes(&self) -> usize {
         self.casters.bytes()
             + self.harmless.bytes()
-            + self.faces.iter().flatten().map(FaceLists::bytes).sum::<usize>()
+            + self.sides.iter().flatten().map(SideLists::bytes).sum::<usize>()
     }
 
     fn statistics(&self) -> Vec<(&'static str, String)> {
         let s = &self.statistics;
-        let all_cells = 6.0 * f64::from(s.resolution).powi(2);
+        let all_cells = self.cells.sides() as f64 * f64::from(s.resolution).powi(2);
         vec![
             ("resolution", s.resolution.to_string()),
-            ("faces built", s.faces.to_string()),
+            ("sides built", s.sides.to_string()),
             ("cells built", s.cells.to_string()),
             ("list items", s.records.to_string()),
             ("list items per square", format!("{:.3}", s.records as f64 / all_cells)),

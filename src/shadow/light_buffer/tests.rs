@@ -2,9 +2,11 @@
 
 use super::cube::Face;
 use super::*;
+use crate::geometry::LightPosition;
 use crate::scene::{ObjectInput, SceneBuilder};
 use crate::shadow::{EmbreeSettings, SceneIndex};
 use dashu_int::IBig;
+use glam::Vec3;
 use proptest::prelude::*;
 
 /// Coordinates are integers, so that small integers decide everything exactly.
@@ -19,10 +21,19 @@ fn scene(triangles: &[[[i8; 3]; 3]]) -> Scene {
 }
 
 fn build<'a>(scene: &'a Scene, index: &'a SceneIndex, resolution: u32) -> LightBuffer<'a> {
+    build_for(Vec3::ZERO.into(), scene, index, resolution)
+}
+
+fn build_for<'a>(
+    light: LightPosition,
+    scene: &'a Scene,
+    index: &'a SceneIndex,
+    resolution: u32,
+) -> LightBuffer<'a> {
     let input = BuildInput {
         scene,
         index,
-        light: Vec3::ZERO,
+        light,
         resolution: Resolution::Cells(resolution),
         // Nothing may be left out of the lists but what full occlusions cut off.
         receivers: Receivers::Anywhere,
@@ -63,6 +74,43 @@ fn cones_meet(a: &[Integers], b: &[Integers]) -> bool {
             [line, line.map(|x| -x)].into_iter().any(|l| l != [0; 3] && holds(&fa, l) && holds(&fb, l))
         })
     })
+}
+
+/// Whether two closed convex polygons have a point in common: unless the line of a side separates them. Exact
+/// for coordinates whose products f64 holds.
+fn polygons_meet(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let separates = |polygon: &[[f64; 2]], other: &[[f64; 2]]| {
+        (0..polygon.len()).any(|i| {
+            let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+            let side = |r: &[f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            let inner = polygon.iter().map(side).fold(0.0, |s: f64, v| if v.abs() > s.abs() { v } else { s });
+            other.iter().all(|r| side(r) * inner.signum() < 0.0)
+        })
+    };
+    !separates(a, b) && !separates(b, a)
+}
+
+impl sheet::Sheet {
+    /// x' and y' of a point times the resolution and the largest component of the light's direction: integers
+    /// for the scenes of these tests.
+    fn scaled(&self, p: glam::DVec3, resolution: u32) -> [f64; 2] {
+        let p = p - self.origin.as_dvec3();
+        let [.., along] = self.axes;
+        let direction = self.direction.as_dvec3();
+        [0, 1].map(|i| {
+            let own = self.axes[i];
+            f64::from(resolution) * (p[own] * direction[along] - p[along] * direction[own])
+        })
+    }
+
+    /// The corners of a cell in the same units.
+    fn scaled_cell(&self, column: u32, row: u32, resolution: u32) -> [[f64; 2]; 4] {
+        let [.., along] = self.axes;
+        let steepness = f64::from(self.direction[along]);
+        let border =
+            |i: usize, k: u32| (2.0 * f64::from(k) - f64::from(resolution)) * self.extent(i) * steepness;
+        [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(di, dj)| [border(0, column + di), border(1, row + dj)])
+    }
 }
 
 /// The four corner rays of a cell in world space.
@@ -106,7 +154,7 @@ proptest! {
                         if !cones_meet(&corners, &cell) {
                             continue;
                         }
-                        let stored = buffer.faces[face.index()].as_ref();
+                        let stored = buffer.sides[face.index()].as_ref();
                         let found = stored.and_then(|lists| {
                             let (full_occlusion, list) = lists.list(lists.cell(column, row)?);
                             Some(list.iter().any(|r| r.caster as usize == caster) || full_occlusion < f32::INFINITY)
@@ -114,6 +162,35 @@ proptest! {
                         prop_assert_eq!(found, Some(true), "caster {} in cell {:?} {} {}", caster, face, column, row);
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn every_cell_of_a_sheet_that_a_triangle_meets_lists_it_or_lies_behind_a_cover(
+        triangles in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-4i8..5)), 1..5),
+        direction in prop::array::uniform3(-3i8..4),
+        resolution in prop::sample::select(vec![1u32, 2, 3, 5, 8]),
+    ) {
+        prop_assume!(direction != [0; 3]);
+        let scene = scene(&triangles);
+        let index = SceneIndex::new(&scene);
+        let direction = Vec3::from(direction.map(f32::from));
+        let buffer = build_for(LightPosition::Towards(direction), &scene, &index, resolution);
+        buffer.validate().map_err(TestCaseError::fail)?;
+        let Cells::Sheet(sheet) = buffer.cells else { unreachable!() };
+        for (caster, &primitive) in buffer.casters.primitives.iter().enumerate() {
+            let corners = scene.corners(primitive).map(|p| sheet.scaled(p.as_dvec3(), resolution));
+            for (row, column) in (0..resolution).flat_map(|row| (0..resolution).map(move |c| (row, c))) {
+                if !polygons_meet(&corners, &sheet.scaled_cell(column, row, resolution)) {
+                    continue;
+                }
+                let stored = buffer.sides[0].as_ref();
+                let found = stored.and_then(|lists| {
+                    let (full_occlusion, list) = lists.list(lists.cell(column, row)?);
+                    Some(list.iter().any(|r| r.caster as usize == caster) || full_occlusion < f32::INFINITY)
+                });
+                prop_assert_eq!(found, Some(true), "caster {} in cell {} {}", caster, column, row);
             }
         }
     }
@@ -127,7 +204,7 @@ proptest! {
         let index = SceneIndex::new(&scene);
         let buffer = build(&scene, &index, resolution);
         for face in Face::ALL {
-            let Some(lists) = &buffer.faces[face.index()] else { continue };
+            let Some(lists) = &buffer.sides[face.index()] else { continue };
             for (row, column) in (0..resolution).flat_map(|row| (0..resolution).map(move |c| (row, c))) {
                 let Some(cell) = lists.cell(column, row) else { continue };
                 let (depth, _) = lists.list(cell);
@@ -163,7 +240,7 @@ fn a_convex_solid_of_many_triangles_darkens_a_cell_that_none_of_them_covers() {
     let index = SceneIndex::new(&scene);
     // With odd R the central cell straddles all four front triangles.
     let buffer = build(&scene, &index, 9);
-    let lists = buffer.faces[4].as_ref().unwrap();
+    let lists = buffer.sides[4].as_ref().unwrap();
     let (depth, list) = lists.list(lists.cell(4, 4).unwrap());
     assert!(depth < 4.0, "{depth}");
     assert!(list.iter().all(|r| r.near <= depth));
@@ -222,7 +299,7 @@ fn points_in_space_need_a_buffer_built_for_them() {
     let input = BuildInput {
         scene: &scene,
         index: &index,
-        light: Vec3::ZERO,
+        light: Vec3::ZERO.into(),
         resolution: Resolution::Auto,
         receivers: Receivers::Surfaces,
         embree: EmbreeSettings { epsilon: 0.0, threads: 1 },

@@ -1,0 +1,185 @@
+//! The planes of a triangle as a light or a camera sees it, in f64 with error bounds.
+//!
+//! All segments of a light meet in it, at a point or infinitely far away. A triangle is then three planes,
+//! each through the light and an edge, and its own. With corners a, b, c relative to an apex at a point the
+//! plane through edge ab has the normal a x b and holds the origin; for a light in the direction L it has the
+//! normal (b - a) x L and holds a. Both are the same plane in homogeneous coordinates, so that everything
+//! that follows is one theory: a point p is blocked exactly if the three edge functions are not negative and
+//! N . (p - a) > 0, where N = (b - a) x (c - a) points away from the light.
+
+use super::expansion::{self, Expansion};
+use super::{LightPosition, LightSpace, ROUNDOFF, Sign};
+use glam::{DVec3, Vec3};
+
+/// The exact side of a triangle's plane that a light is on: the sign of det(a - l, b - l, c - l) for a light
+/// at l, and of -N . L for one in the direction L. Positive where N points away from it.
+pub fn orientation(light: impl Into<LightPosition>, [a, b, c]: [Vec3; 3]) -> Sign {
+    match light.into() {
+        LightPosition::At(point) => {
+            let coord = |p: Vec3| robust::Coord3D { x: f64::from(p.x), y: f64::from(p.y), z: f64::from(p.z) };
+            Sign::of(robust::orient3d(coord(a), coord(b), coord(c), coord(point)))
+        }
+        LightPosition::Towards(direction) => {
+            let [p, q, r] = [a, b, c].map(Vec3::as_dvec3);
+            let (value, bound) = Plane::through(q - p, r - p).dot(direction.as_dvec3(), DVec3::ZERO);
+            -Sign::certain(value, bound).unwrap_or_else(|| {
+                let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
+                expansion::dot(&normal, &direction.to_array().map(Expansion::from)).sign()
+            })
+        }
+    }
+}
+
+/// The corners in the order that makes the orientation positive, or `None` if the triangle's plane holds the
+/// light: such triangles never block.
+pub fn oriented(light: impl Into<LightPosition>, corners: [Vec3; 3]) -> Option<[Vec3; 3]> {
+    match orientation(light, corners) {
+        Sign::Zero => None,
+        Sign::Positive => Some(corners),
+        Sign::Negative => Some([corners[0], corners[2], corners[1]]),
+    }
+}
+
+/// A plane normal in f64, and for each component the sum of the absolute values of its two terms.
+///
+/// A component is p q - r s with each factor a difference rounded once: it is wrong by at most 5 roundoffs
+/// of its `size`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plane {
+    pub normal: DVec3,
+    pub size: DVec3,
+}
+
+impl Plane {
+    pub fn through(a: DVec3, b: DVec3) -> Plane {
+        let (ayz, azy) = (a.y * b.z, a.z * b.y);
+        let (azx, axz) = (a.z * b.x, a.x * b.z);
+        let (axy, ayx) = (a.x * b.y, a.y * b.x);
+        Plane {
+            normal: DVec3::new(ayz - azy, azx - axz, axy - ayx),
+            size: DVec3::new(ayz.abs() + azy.abs(), azx.abs() + axz.abs(), axy.abs() + ayx.abs()),
+        }
+    }
+
+    /// The normal in f32 with its largest component 1; NaN, which leaves every test undecided, if f64 was
+    /// not precise enough for a relative error of 2^-27.
+    pub fn scaled_to_f32(&self) -> [f32; 3] {
+        let largest = self.normal.abs().max_element();
+        let error = 8.0 * ROUNDOFF * self.size.max_element();
+        if error <= largest * (1.0 / 134_217_728.0) && largest.is_finite() {
+            (self.normal / largest).as_vec3().to_array()
+        } else {
+            [f32::NAN; 3]
+        }
+    }
+
+    /// A value of this plane in the scale of [`Plane::scaled_to_f32`]; NaN if it is not known within 2^-27
+    /// of itself and `allowance`.
+    pub fn scaled_value(&self, (value, bound): (f64, f64), allowance: f64) -> f32 {
+        let largest = self.normal.abs().max_element();
+        let scaled = (value / largest) as f32;
+        let precise = bound <= value.abs() * (1.0 / 134_217_728.0) + allowance * largest;
+        if precise && scaled.is_finite() { scaled } else { f32::NAN }
+    }
+
+    /// The scalar product with a vector whose components are wrong by at most `error`, and its bound.
+    ///
+    /// Per component: 5 roundoffs of `size` from the normal, 1 from the product, 2 from the sums, and the
+    /// vector's own error; 12 roundoffs of size * |v| and twice size * error are above that.
+    pub fn dot(&self, v: DVec3, error: DVec3) -> (f64, f64) {
+        let n = self.normal;
+        let value = (n.x * v.x + n.y * v.y) + n.z * v.z;
+        let bound = self.size.dot(v.abs() * (12.0 * ROUNDOFF) + error * 2.0);
+        (value, bound * (1.0 + 8.0 * ROUNDOFF) + 1e-300)
+    }
+}
+
+/// The planes of a triangle with positive orientation, relative to an origin.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OrientedPlanes {
+    /// Corners relative to the origin, each coordinate rounded once.
+    pub corners: [DVec3; 3],
+    /// Planes through the light and edges 01, 12, 20, positive inside.
+    pub edges: [Plane; 3],
+    /// Value of each edge's normal on that edge, and the bound of its error: exactly 0 for planes that hold
+    /// the origin.
+    pub offsets: [(f64, f64); 3],
+    /// The triangle's own plane, with its normal pointing away from the light.
+    pub own: Plane,
+    /// own . u0, and the bound of its error; positive if the light is the origin.
+    pub height: (f64, f64),
+}
+
+impl OrientedPlanes {
+    /// Seen from a camera or a light at the origin of the coordinates.
+    pub fn from_apex(apex: DVec3, corners: [DVec3; 3]) -> OrientedPlanes {
+        let [a, b, c] = corners;
+        let u = corners.map(|p| p - apex);
+        let own = Plane::through(b - a, c - a);
+        OrientedPlanes {
+            corners: u,
+            // u x (v - u) = u x v, and keeps the digits of small triangles far away.
+            edges: [Plane::through(u[0], b - a), Plane::through(u[1], c - b), Plane::through(u[2], a - c)],
+            offsets: [(0.0, 0.0); 3],
+            own,
+            height: own.dot(u[0], rounded_once(u[0])),
+        }
+    }
+
+    /// Seen by a light.
+    pub fn new(space: &LightSpace, corners: [DVec3; 3]) -> OrientedPlanes {
+        let origin = space.origin().as_dvec3();
+        match space.light() {
+            LightPosition::At(_) => OrientedPlanes::from_apex(origin, corners),
+            LightPosition::Towards(direction) => {
+                let [a, b, c] = corners;
+                let u = corners.map(|p| p - origin);
+                let own = Plane::through(b - a, c - a);
+                let edges = [b - a, c - b, a - c].map(|edge| Plane::through(edge, direction.as_dvec3()));
+                OrientedPlanes {
+                    corners: u,
+                    edges,
+                    offsets: [0, 1, 2].map(|i| edges[i].dot(u[i], rounded_once(u[i]))),
+                    own,
+                    height: own.dot(u[0], rounded_once(u[0])),
+                }
+            }
+        }
+    }
+}
+
+/// More than one rounding of each coordinate.
+fn rounded_once(v: DVec3) -> DVec3 {
+    v.abs() * (2.0 * ROUNDOFF)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn coordinates() -> impl Strategy<Value = Vec3> {
+        prop::array::uniform3(prop_oneof![-1.0f32..1.0, (-3i8..4).prop_map(f32::from)]).prop_map(Vec3::from)
+    }
+
+    proptest! {
+        /// A point light very far away in a direction is on the same side as one infinitely far away,
+        /// unless the latter lies in the plane.
+        #[test]
+        fn a_direction_is_the_limit_of_points(direction in coordinates(), corners in prop::array::uniform3(coordinates())) {
+            let sign = orientation(LightPosition::Towards(direction), corners);
+            prop_assume!(sign != Sign::Zero);
+            prop_assert_eq!(orientation(direction * 2.0f32.powi(100), corners), sign);
+        }
+    }
+
+    #[test]
+    fn a_direction_in_the_plane_has_no_side() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let towards = |z: f32| orientation(LightPosition::Towards(Vec3::new(0.3, -0.7, z)), corners);
+        assert_eq!(
+            [towards(0.0), towards(1e-40), towards(-1e-40)],
+            [Sign::Zero, Sign::Negative, Sign::Positive]
+        );
+    }
+}

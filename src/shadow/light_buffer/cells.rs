@@ -1,0 +1,128 @@
+//! The cells around a light, and the proven look-up of the cell that a point lies in.
+//!
+//! A light at a point has a cube of six sides (row 1 of the notes), one infinitely far away a single side
+//! across its rays. Cells are closed: a point on a border belongs to every cell that it touches, and any of
+//! them may be looked up, since triangles are entered into every closed cell that they meet (rows 1 and 13).
+
+use super::cube::{self, Face};
+use super::sheet::Sheet;
+use crate::geometry::expansion::Expansion;
+use crate::geometry::footprint::{Frame, Grid};
+use crate::geometry::occlusion::PreciseQuery;
+use crate::geometry::{ExactPosition, LightPosition, LightSpace, Sign};
+use glam::{DVec3, Vec3};
+
+/// How space is divided.
+#[derive(Debug, Clone, Copy)]
+pub enum Cells {
+    /// By direction from the light.
+    Cube,
+    /// By place across parallel rays.
+    Sheet(Sheet),
+}
+
+/// A cell, and an interval that holds the exact z' of the point that was looked up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Located {
+    /// Side of the cube, or 0.
+    pub side: usize,
+    /// Column along x'.
+    pub column: u32,
+    /// Row along y'.
+    pub row: u32,
+    /// At most the exact z'.
+    pub z_low: f64,
+    /// At least the exact z'.
+    pub z_high: f64,
+}
+
+impl Cells {
+    /// The cells of a light, around all that is cast: every corner of every caster.
+    pub fn new(space: &LightSpace, corners: impl Iterator<Item = Vec3>) -> Cells {
+        match space.light() {
+            LightPosition::At(_) => Cells::Cube,
+            LightPosition::Towards(direction) => Cells::Sheet(Sheet::new(space.origin(), direction, corners)),
+        }
+    }
+
+    /// Six, or one.
+    pub fn sides(&self) -> usize {
+        match self {
+            Cells::Cube => Face::ALL.len(),
+            Cells::Sheet(_) => 1,
+        }
+    }
+
+    /// The axes x', y' and z' of a side.
+    pub fn frame(&self, side: usize) -> Frame {
+        match self {
+            Cells::Cube => Face::ALL[side].frame(),
+            Cells::Sheet(sheet) => sheet.frame(),
+        }
+    }
+
+    /// The cell of a point, and whether exact arithmetic was needed to find it. `None` for a point in the
+    /// light itself or beside all casters of a light infinitely far away: nothing blocks these.
+    pub fn locate<F: Fn() -> ExactPosition>(
+        &self,
+        space: &LightSpace,
+        position: DVec3,
+        resolution: u32,
+        query: &PreciseQuery<F>,
+    ) -> Option<(Located, bool)> {
+        match self {
+            Cells::Cube => cube::locate(space.origin(), position, resolution, query),
+            Cells::Sheet(sheet) => sheet.locate(position, resolution, query),
+        }
+    }
+}
+
+/// The cells of one side as a grid of closed boxes over [-1, 1] x [-1, 1], a little widened.
+pub fn side_grid(resolution: u32) -> Grid {
+    let cell = 2.0 / f64::from(resolution);
+    Grid {
+        origin: [-1.0 + 0.5 * cell; 2],
+        step: [cell; 2],
+        half: [0.5 * cell * (1.0 + 1e-12) + 1e-14; 2],
+        count: [resolution; 2],
+    }
+}
+
+/// Error of one coordinate relative to the origin: half an ulp of the point and of the difference.
+pub(super) fn coordinate_error(position: f64, relative: f64) -> f64 {
+    (position.abs() + relative.abs()) * f64::EPSILON
+}
+
+/// The cell of a number in [-1, 1] that is known within `tolerance` cells, if that leaves no doubt.
+pub(super) fn certain_index(value: f64, tolerance: f64, resolution: u32) -> Option<u32> {
+    let cells = f64::from(resolution);
+    let cell = (value + 1.0) * 0.5 * cells;
+    let whole = cell.floor();
+    let fraction = cell - whole;
+    let inside = whole >= 0.0 && whole < cells && fraction > tolerance && 1.0 - fraction > tolerance;
+    inside.then_some(whole as u32)
+}
+
+/// The largest k < R with R x >= (2k - R) z, for |x| <= z, by bisection with exact signs.
+pub(super) fn exact_index(x: &Expansion, z: &Expansion, resolution: u32) -> u32 {
+    let scaled = x * &Expansion::from(resolution as f32);
+    let at_or_above = |k: u32| {
+        let border = (2 * i64::from(k) - i64::from(resolution)) as f32;
+        (&scaled - &(z * &Expansion::from(border))).sign() != Sign::Negative
+    };
+    let (mut low, mut high) = (0, resolution);
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if at_or_above(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// The absolute value.
+pub(super) fn magnitude(value: &Expansion) -> Expansion {
+    if value.sign() == Sign::Negative { -value } else { value.clone() }
+}

@@ -1,0 +1,188 @@
+//! The cells of a light infinitely far away: a grid across its rays (TRUTH: its position is (d, 0) in
+//! homogeneous coordinates).
+//!
+//! With the light in the direction L, whose largest component is that of axis k, points are moved along L
+//! onto the plane where coordinate k is that of the origin: x' = x - (L_x / L_k) k and y' likewise, for the
+//! two other axes in cyclic order. Depth is coordinate k itself, turned so that it grows away from the light.
+//! The sheet [-E, E] x [-E, E], with an E for each axis, holds everything that is cast; cell (i, j) of R x R
+//! is the closed set with (2i - R) / R <= x' / E <= (2i + 2 - R) / R, and so for y'.
+
+use super::cells::{Located, certain_index, coordinate_error, exact_index, magnitude};
+use crate::geometry::expansion::Expansion;
+use crate::geometry::footprint::Frame;
+use crate::geometry::occlusion::PreciseQuery;
+use crate::geometry::position::HomogeneousPoint;
+use crate::geometry::{ExactPosition, Sign};
+use glam::{DVec3, Vec3};
+
+/// The grid of one light.
+#[derive(Debug, Clone, Copy)]
+pub struct Sheet {
+    pub(super) origin: Vec3,
+    pub(super) direction: Vec3,
+    /// The axes of x', y' and depth.
+    pub(super) axes: [usize; 3],
+    /// An eighth of E for x' and y': E itself may be beyond the largest f32.
+    eighth: [f32; 2],
+}
+
+impl Sheet {
+    /// Encloses every corner of every caster; coordinates are relative to the origin.
+    pub fn new(origin: Vec3, direction: Vec3, corners: impl Iterator<Item = Vec3>) -> Sheet {
+        let depth = direction.abs().max_position();
+        let axes = [(depth + 1) % 3, (depth + 2) % 3, depth];
+        let sheet = Sheet { origin, direction, axes, eighth: [0.0; 2] };
+        let far = corners.fold([0.0f64; 2], |far, corner| {
+            let p = corner.as_dvec3() - origin.as_dvec3();
+            [0, 1].map(|i| far[i].max(sheet.across(i, p).abs() + sheet.across_error(i, corner.as_dvec3(), p)))
+        });
+        // Widened by far more than rounding, so that nothing that is cast reaches the outermost border.
+        let eighth = far.map(|far| ((far * 0.125 * 1.000_01) as f32).max(f32::MIN_POSITIVE));
+        Sheet { eighth, ..sheet }
+    }
+
+    /// L_i / L_k.
+    fn slope(&self, i: usize) -> f64 {
+        f64::from(self.direction[self.axes[i]]) / f64::from(self.direction[self.axes[2]])
+    }
+
+    /// x' or y' of a vector relative to the origin.
+    fn across(&self, i: usize, p: DVec3) -> f64 {
+        p[self.axes[i]] - p[self.axes[2]] * self.slope(i)
+    }
+
+    /// How far that may be off for a rounded position.
+    fn across_error(&self, i: usize, position: DVec3, p: DVec3) -> f64 {
+        let (own, along) = (self.axes[i], self.axes[2]);
+        let slope = self.slope(i).abs();
+        let rounding = 4.0 * f64::EPSILON * (p[own].abs() + p[along].abs() * slope);
+        coordinate_error(position[own], p[own])
+            + coordinate_error(position[along], p[along]) * slope
+            + rounding
+    }
+
+    /// 1 if depth grows along its axis, -1 if against it.
+    fn away(&self) -> f64 {
+        if self.direction[self.axes[2]] > 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// E of x' or y'.
+    pub(super) fn extent(&self, i: usize) -> f64 {
+        8.0 * f64::from(self.eighth[i])
+    }
+
+    /// The axes x', y' and z' in units of the sheet, and their inverse.
+    pub fn frame(&self) -> Frame {
+        let unit = |axis: usize| {
+            DVec3::from_array(std::array::from_fn(|i| f64::from(u8::from(i == self.axes[axis]))))
+        };
+        let direction = self.direction.as_dvec3();
+        let z = -direction / direction[self.axes[2]].abs();
+        let across = [0, 1].map(|i| (unit(i) - unit(2) * self.slope(i)) / self.extent(i));
+        Frame::parallel(
+            [unit(0) * self.extent(0), unit(1) * self.extent(1), z],
+            [across[0], across[1], unit(2) * self.away()],
+        )
+    }
+
+    /// The cell of a point; `None` if it is certainly beside the sheet, where nothing is cast.
+    pub fn locate<F: Fn() -> ExactPosition>(
+        &self,
+        position: DVec3,
+        resolution: u32,
+        query: &PreciseQuery<F>,
+    ) -> Option<(Located, bool)> {
+        let p = position - self.origin.as_dvec3();
+        let depth = p[self.axes[2]] * self.away();
+        let depth_error = coordinate_error(position[self.axes[2]], depth);
+        let located = |[column, row]: [u32; 2]| Located {
+            side: 0,
+            column,
+            row,
+            z_low: depth - depth_error,
+            z_high: depth + depth_error,
+        };
+        let mut cells = [None; 2];
+        for (i, cell) in cells.iter_mut().enumerate() {
+            let (value, error, extent) =
+                (self.across(i, p), self.across_error(i, position, p), self.extent(i));
+            if value.abs() > extent * (1.0 + 1e-12) + 2.0 * error {
+                return None;
+            }
+            let tolerance = f64::from(resolution) * (error / extent + 8.0 * f64::EPSILON);
+            *cell = certain_index(value / extent, tolerance, resolution);
+        }
+        match cells {
+            [Some(column), Some(row)] => Some((located([column, row]), false)),
+            _ => Some((located(self.exact_cell(query.exact(), resolution)?), true)),
+        }
+    }
+
+    /// The cell by exact signs of degree 5.
+    fn exact_cell(&self, p: &HomogeneousPoint, resolution: u32) -> Option<[u32; 2]> {
+        let along = Expansion::from(self.direction[self.axes[2]]);
+        let steepness = magnitude(&along);
+        let index = |i: usize| {
+            let slope = Expansion::from(self.direction[self.axes[i]]);
+            // L_k x' and |L_k| E, in units of the denominator w.
+            let turned = &(&along * &p.xyz[self.axes[i]]) - &(&slope * &p.xyz[self.axes[2]]);
+            let x = if along.sign() == Sign::Negative { -&turned } else { turned };
+            let extent = &Expansion::from(8.0f32) * &Expansion::from(self.eighth[i]);
+            let reach = &(&extent * &steepness) * &p.w;
+            let is_inside = (&reach - &magnitude(&x)).sign() != Sign::Negative;
+            is_inside.then(|| exact_index(&x, &reach, resolution))
+        };
+        Some([index(0)?, index(1)?])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{LightPosition, LightSpace};
+
+    /// A sheet over [-8, 8] in x and y, a little wider, for a light straight above.
+    fn sheet() -> Sheet {
+        Sheet::new(Vec3::ZERO, Vec3::new(0.0, 0.0, 2.0), [Vec3::splat(8.0), Vec3::splat(-8.0)].into_iter())
+    }
+
+    fn cell(sheet: &Sheet, p: Vec3, resolution: u32) -> Option<[u32; 2]> {
+        let bounds = (Vec3::splat(-8.0), Vec3::splat(8.0));
+        let space = LightSpace::new(LightPosition::Towards(sheet.direction), bounds);
+        let query = PreciseQuery::new(&space, p.as_dvec3(), || ExactPosition::Bare(p));
+        let (at, exactly) = sheet.locate(p.as_dvec3(), resolution, &query)?;
+        let by_signs = sheet.exact_cell(query.exact(), resolution).unwrap();
+        assert!(exactly || by_signs == [at.column, at.row]);
+        assert!(at.z_low <= f64::from(-p.z) && f64::from(-p.z) <= at.z_high);
+        Some([at.column, at.row])
+    }
+
+    #[test]
+    fn cells_count_along_the_axes_and_depth_grows_away_from_the_light() {
+        let sheet = sheet();
+        assert_eq!(cell(&sheet, Vec3::new(-7.9, 7.9, 3.0), 4), Some([0, 3]));
+        assert_eq!(cell(&sheet, Vec3::new(0.1, -0.1, -100.0), 4), Some([2, 1]));
+        assert_eq!(cell(&sheet, Vec3::new(8.1, 0.0, 0.0), 4), None);
+    }
+
+    #[test]
+    fn points_are_moved_along_the_rays() {
+        let sheet = Sheet::new(
+            Vec3::ZERO,
+            Vec3::new(1.0, 0.0, 2.0),
+            [Vec3::splat(8.0), Vec3::splat(-8.0)].into_iter(),
+        );
+        let low = Vec3::new(1.0, 1.0, -6.0);
+        assert_eq!(cell(&sheet, low, 1000), cell(&sheet, low + 5.0 * Vec3::new(1.0, 0.0, 2.0), 1000));
+    }
+
+    #[test]
+    fn borders_are_found_exactly() {
+        // E is a float: the middle border is at 0, and one ulp decides.
+        let sheet = sheet();
+        let tiny = f32::from_bits(1);
+        assert_eq!(cell(&sheet, Vec3::new(0.0, 1.0, 0.0), 2), Some([1, 1]));
+        assert_eq!(cell(&sheet, Vec3::new(-tiny, 1.0, 0.0), 2), Some([0, 1]));
+        assert_eq!(cell(&sheet, Vec3::new(tiny, -tiny, 0.0), 2), Some([1, 0]));
+    }
+}
