@@ -57,9 +57,18 @@ plant cell-too-few $buffer/build.rs \
     every_exact_tester_is_right_in_every_case_at_every_resolution \
     all_exact_testers_agree_with_the_definition_on_random_scenes
 
-plant cell-bound-shrunk $buffer/cube.rs \
+plant cell-bound-shrunk $buffer/cells.rs \
     'half: [0.5 * cell * (1.0 + 1e-12) + 1e-14; 2]' 'half: [0.5 * cell * (1.0 - 1e-9); 2]' \
     every_cell_that_a_triangle_meets_lists_it_or_lies_behind_a_cover
+
+plant depth-towards-the-light $buffer/sheet.rs \
+    '> 0.0 { -1.0 } else { 1.0 }' '> 0.0 { 1.0 } else { -1.0 }' \
+    cells_count_along_the_axes_and_depth_grows_away_from_the_light \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant offset-of-a-parallel-edge-dropped src/geometry/light_triangle.rs \
+    'if offset != (0.0, 0.0)' 'if lane == 3' \
+    no_filter_contradicts_exact_arithmetic
 
 plant pruned-one-too-many $buffer/cell.rs \
     'c.near <= cover_depth' 'c.near < cover_depth' \
