@@ -1,6 +1,6 @@
 //! `lightbuffer info`: what a scene holds and what it calls for.
 
-use super::options::ViewOptions;
+use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use super::view::View;
 use super::{Outcome, output};
@@ -18,6 +18,8 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     view: ViewOptions,
+    #[command(flatten)]
+    lights: LightOptions,
     /// The same as JSON; - is standard output instead of the text
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -68,7 +70,7 @@ struct ConeFacts {
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
-    let view = View::load(&args.view, Messages::new(args.quiet))?;
+    let view = View::load(&args.view, &args.lights, Messages::new(args.quiet))?;
     let facts = facts(&view);
     if let Some(path) = &args.json {
         output::write_json(path, &facts)?;

@@ -9,6 +9,7 @@ mod output;
 mod picture;
 mod progress;
 mod render;
+mod replay;
 mod validate;
 mod view;
 
@@ -32,6 +33,8 @@ enum Command {
     Render(render::Args),
     /// Hold every shadow tester against exact truth and against Embree, pixel by pixel
     Validate(validate::Args),
+    /// Ask one pixel and one light of every shadow tester, in bits, and say who is wrong and why
+    Replay(replay::Args),
     /// Say what a scene holds and what it calls for
     Info(info::Args),
 }
@@ -50,6 +53,7 @@ pub fn run() -> ExitCode {
     let outcome = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Validate(args) => validate::run(&args),
+        Command::Replay(args) => replay::run(&args),
         Command::Info(args) => info::run(&args),
     };
     match outcome {

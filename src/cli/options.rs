@@ -19,6 +19,17 @@ pub struct ViewOptions {
     /// Camera by name [default: the scene's first]
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
+    /// No floor under a mesh that comes without lights
+    #[arg(long)]
+    pub no_floor: bool,
+    /// Treat warnings about the scene as errors
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// Lights in place of the scene's.
+#[derive(Debug, Args)]
+pub struct LightOptions {
     /// A point light here instead of the scene's lights; may be repeated
     #[arg(long = "light", value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true)]
     pub lights: Vec<Vec3>,
@@ -26,12 +37,38 @@ pub struct ViewOptions {
     #[arg(long = "lights", value_name = "N", conflicts_with = "lights",
           value_parser = clap::value_parser!(u32).range(1..=64))]
     pub rig: Option<u32>,
-    /// No floor under a mesh that comes without lights
-    #[arg(long)]
-    pub no_floor: bool,
-    /// Treat warnings about the scene as errors
-    #[arg(long)]
-    pub strict: bool,
+}
+
+/// A light to be put somewhere, or one to be chosen by name.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LightArgument {
+    /// Put here.
+    Position(Vec3),
+    /// Chosen by this name.
+    Name(String),
+}
+
+impl LightArgument {
+    /// Where it is put.
+    pub fn position(&self) -> Option<Vec3> {
+        match self {
+            LightArgument::Position(point) => Some(*point),
+            LightArgument::Name(_) => None,
+        }
+    }
+
+    /// The name it is chosen by.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            LightArgument::Position(_) => None,
+            LightArgument::Name(name) => Some(name),
+        }
+    }
+}
+
+/// Three numbers are a place, anything else is a name.
+pub fn parse_light_argument(text: &str) -> std::result::Result<LightArgument, String> {
+    Ok(parse_point(text).map_or_else(|_| LightArgument::Name(text.into()), LightArgument::Position))
 }
 
 /// What is done with it.

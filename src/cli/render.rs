@@ -1,6 +1,6 @@
 //! `lightbuffer render`: a scene becomes an OpenEXR picture.
 
-use super::options::{RunOptions, ViewOptions};
+use super::options::{LightOptions, RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
 use super::view::{Seen, View};
 use super::{Outcome, output, picture, validate};
@@ -19,6 +19,8 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     view: ViewOptions,
+    #[command(flatten)]
+    lights: LightOptions,
     /// OpenEXR file to write; a PNG preview is written beside it
     #[arg(short, long, value_name = "OUT.exr", value_parser = parse_output)]
     output: PathBuf,
@@ -75,7 +77,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let tester = find(&args.shadow)?;
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
-    let view = View::load(&args.view, messages)?;
+    let view = View::load(&args.view, &args.lights, messages)?;
     let seen = view.look(&args.view);
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();

@@ -1,7 +1,7 @@
 //! `lightbuffer validate`: every tester against the truth.
 
 use super::Outcome;
-use super::options::{RunOptions, ViewOptions};
+use super::options::{LightOptions, RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
 use super::view::{Seen, View};
 use super::{output, picture};
@@ -21,6 +21,8 @@ const MOST_TESTS: f64 = 2e11;
 pub struct Args {
     #[command(flatten)]
     view: ViewOptions,
+    #[command(flatten)]
+    lights: LightOptions,
     /// Folder for validate.json, image.exr and the PNG maps; created if need be
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -75,7 +77,7 @@ fn choose(names: &[String], shadow: &str) -> Result<Vec<&'static TesterEntry>> {
 fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
-    let view = View::load(&args.view, messages)?;
+    let view = View::load(&args.view, &args.lights, messages)?;
     let seen = view.look(&args.view);
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();

@@ -1,6 +1,6 @@
 //! From options to a scene with lights, a camera and its visible points.
 
-use super::options::ViewOptions;
+use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::scene::{Camera, Falloff, Framing, Light, PointLight, Scene, formats, frame};
@@ -23,7 +23,7 @@ impl View {
     ///
     /// # Errors
     /// Whatever the loader finds, an unknown camera, or any warning under `--strict`.
-    pub fn load(options: &ViewOptions, messages: Messages) -> Result<View> {
+    pub fn load(options: &ViewOptions, lights: &LightOptions, messages: Messages) -> Result<View> {
         let mut scene = formats::load(&options.scene)?;
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
@@ -39,7 +39,7 @@ impl View {
         if !added.is_empty() {
             messages.say(&format!("the scene came without: added {}", added.join(", ")));
         }
-        replace_lights(&mut scene, options)?;
+        replace_lights(&mut scene, lights)?;
         let camera = choose_camera(&scene, options.camera.as_deref())?;
         Ok(View { scene, camera, added })
     }
@@ -76,7 +76,7 @@ fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
 
 /// Replaces the lights of the scene by those of `--light` or `--lights`, all of one strength: together as
 /// bright at the scene's centre as the key light of a framed mesh.
-fn replace_lights(scene: &mut Scene, options: &ViewOptions) -> Result<()> {
+fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
     let (low, high) = scene.bounds().expect("a scene with triangles");
     let centre = low * 0.5 + high * 0.5;
     let positions = match options.rig {

@@ -3,7 +3,7 @@
 use super::validation::{TesterReport, Totals, Validation};
 use crate::film::grouped;
 use crate::shadow::{Counters, REGISTRY};
-use crate::verdict::TesterRun;
+use crate::verdict::{Cause, TesterRun};
 use crate::visibility::FirstHits;
 use std::fmt::Write;
 
@@ -41,6 +41,9 @@ pub fn verdict_table(report: &Validation) -> String {
         rows(&mut text, &|name| report.totals.testers.get(name));
     }
     text.push_str(&summary(&report.totals));
+    for (name, tester) in &report.totals.testers {
+        text.push_str(&causes(name, tester));
+    }
     for skipped in &report.skipped {
         let _ = writeln!(text, "skipped: {skipped} would need more than 2e11 tests");
     }
@@ -86,6 +89,20 @@ fn summary(totals: &Totals) -> String {
         ),
         None => format!("{native}; Embree was not asked\n"),
     }
+}
+
+/// What a tester's wrong answers are put down to, if there are any.
+fn causes(name: &str, tester: &TesterReport) -> String {
+    let Some(causes) = tester.causes.filter(|_| tester.counts.wrong > 0) else { return String::new() };
+    let parts = [
+        (causes.epsilon, Cause::Epsilon),
+        (causes.input_rounding, Cause::InputRounding),
+        (causes.traversal, Cause::Traversal),
+    ];
+    let parts = parts.into_iter().filter(|part| part.0 > 0);
+    let parts: Vec<_> =
+        parts.map(|(count, cause)| format!("{} by {}", grouped(count), cause.name())).collect();
+    format!("{name} is wrong {}\n", parts.join(", "))
 }
 
 /// What was built and what every tester did, for `--stats`: runs with the name of their light.

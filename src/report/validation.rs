@@ -1,7 +1,9 @@
 //! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
 
 use crate::shadow::Basis;
-use crate::verdict::{ArbiterCheck, LightVerdict, Queries, TesterCounts, TesterResult, VerdictCounts};
+use crate::verdict::{
+    ArbiterCheck, CauseCounts, LightVerdict, Queries, TesterCounts, TesterResult, VerdictCounts,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -68,6 +70,9 @@ pub struct TesterReport {
     /// Right and wrong.
     #[serde(flatten)]
     pub counts: TesterCounts,
+    /// What wrong answers are put down to; absent for testers that trace no float rays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub causes: Option<CauseCounts>,
     /// Seconds to build it.
     pub build_seconds: f64,
     /// Wall-clock nanoseconds a query on all threads.
@@ -96,6 +101,7 @@ impl LightReport {
     pub fn new(name: &str, queries: &Queries, verdict: &LightVerdict) -> LightReport {
         let report = |t: &TesterResult| TesterReport {
             counts: t.counts,
+            causes: t.causes,
             build_seconds: t.run.build_seconds,
             ns_per_query: t.run.ns_per_query,
             bytes: t.run.bytes,
@@ -121,6 +127,7 @@ impl Totals {
             for (&name, tester) in &light.testers {
                 let sum = totals.testers.entry(name).or_insert(TesterReport {
                     counts: TesterCounts::default(),
+                    causes: None,
                     build_seconds: 0.0,
                     ns_per_query: 0.0,
                     bytes: 0,
@@ -133,6 +140,9 @@ impl Totals {
                 }
                 *asked += light.queries;
                 sum.counts += tester.counts;
+                if let Some(causes) = tester.causes {
+                    *sum.causes.get_or_insert_default() += causes;
+                }
                 sum.build_seconds += tester.build_seconds;
                 sum.bytes += tester.bytes;
             }

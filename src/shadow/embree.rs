@@ -5,7 +5,7 @@
 //! excluded by a filter. `embree-fast` is the rival as renderers run it: a fast scene, no filter, nothing
 //! between it and its speed.
 
-use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
+use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry, TracedRay};
 use crate::embree::{
     BuildQuality, Coherence, Device, PacketWidth, Receiver, Robustness, SceneOptions, ShadowRay,
     TriangleScene,
@@ -68,6 +68,7 @@ pub struct Embree {
     epsilon: f32,
     /// Index of each triangle of the scene among those that Embree has, if it does not have all.
     casting: Option<Vec<u32>>,
+    receiver: Receiver,
     /// Length of the segments of a light infinitely far away that the epsilon is a share of.
     diameter: f32,
 }
@@ -88,29 +89,41 @@ impl Embree {
         let casting = (triangles.len() < input.scene.triangles.len()).then(|| casting_indices(input.scene));
         let (low, high) = input.index.bounds;
         let diameter = (high * 0.5 - low * 0.5).length() * 2.0;
-        Ok(Embree { scene, light: input.light, epsilon: input.embree.epsilon, casting, diameter })
+        Ok(Embree { scene, light: input.light, epsilon: input.embree.epsilon, casting, receiver, diameter })
     }
 
-    /// The ray that Embree is given for a point: not normalised, so that 1 is the light. `None` for a point
-    /// whose rounding is the light itself, which no ray can ask for.
-    pub fn ray(&self, point: &SurfacePoint) -> Option<ShadowRay> {
+    /// The ray for a point: not normalised, so that 1 is the light, unless that would be beyond Embree's range.
+    /// `None` for a point whose rounding is the light itself, which no ray can ask for.
+    fn ray(&self, point: &SurfacePoint) -> Option<TracedRay> {
         let origin = point.position.as_vec3();
-        let (direction, t_near, t_far) = match self.light {
+        let (direction, t_near, t_far, t_light) = match self.light {
             LightPosition::At(light) => {
                 let (direction, scale) = in_range(light - origin);
-                (direction, self.epsilon * scale, (1.0 - self.epsilon) * scale)
+                (direction, self.epsilon * scale, (1.0 - self.epsilon) * scale, scale)
             }
             LightPosition::Towards(direction) => {
                 let (direction, _) = in_range(direction);
-                (direction, self.epsilon * self.diameter / direction.length(), f32::INFINITY)
+                let t_near = self.epsilon * self.diameter / direction.length();
+                (direction, t_near, f32::INFINITY, f32::INFINITY)
             }
         };
-        (direction != Vec3::ZERO && direction.is_finite()).then(|| ShadowRay {
-            origin: origin.to_array(),
-            t_near,
-            direction: direction.to_array(),
-            t_far,
-            excluded: point.primitive().map_or(ShadowRay::NO_TRIANGLE, |primitive| self.index_of(primitive)),
+        let excluded = match self.receiver {
+            Receiver::Excluded => point.primitive(),
+            Receiver::Included => None,
+        };
+        let is_direction = direction != Vec3::ZERO && direction.is_finite();
+        is_direction.then_some(TracedRay { origin, direction, t_near, t_far, t_light, excluded })
+    }
+
+    /// The same as Embree is told.
+    fn shadow_ray(&self, point: &SurfacePoint) -> Option<ShadowRay> {
+        let ray = self.ray(point)?;
+        Some(ShadowRay {
+            origin: ray.origin.to_array(),
+            t_near: ray.t_near,
+            direction: ray.direction.to_array(),
+            t_far: ray.t_far,
+            excluded: ray.excluded.map_or(ShadowRay::NO_TRIANGLE, |primitive| self.index_of(primitive)),
         })
     }
 
@@ -122,7 +135,7 @@ impl Embree {
 
 impl ShadowTester for Embree {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        let rays: Vec<Option<ShadowRay>> = points.iter().map(|point| self.ray(point)).collect();
+        let rays: Vec<Option<ShadowRay>> = points.iter().map(|point| self.shadow_ray(point)).collect();
         if rays.iter().all(Option::is_some) {
             let rays: Vec<ShadowRay> = rays.into_iter().flatten().collect();
             self.scene.occluded(&rays, PacketWidth::Sixteen, Coherence::Coherent, answers)?;
@@ -141,5 +154,9 @@ impl ShadowTester for Embree {
 
     fn bytes(&self) -> usize {
         self.scene.bytes()
+    }
+
+    fn traced_ray(&self, point: &SurfacePoint) -> Option<TracedRay> {
+        self.ray(point)
     }
 }

@@ -13,10 +13,12 @@ pub mod facing;
 pub mod light_buffer;
 mod registry;
 mod scene_index;
+mod traced_ray;
 
 pub use counters::Counters;
 pub use registry::{Basis, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find};
 pub use scene_index::{Casters, SceneIndex};
+pub use traced_ray::TracedRay;
 
 use crate::error::Result;
 use crate::visibility::SurfacePoint;
@@ -33,6 +35,11 @@ pub trait ShadowTester: Send + Sync {
 
     /// Memory that the tester keeps, in bytes.
     fn bytes(&self) -> usize;
+
+    /// The float ray that it traces for a point, if it traces such rays and can for this point.
+    fn traced_ray(&self, _point: &SurfacePoint) -> Option<TracedRay> {
+        None
+    }
 
     /// What was built, a line each, for `--stats`.
     fn statistics(&self) -> Vec<(&'static str, String)> {

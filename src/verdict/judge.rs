@@ -1,10 +1,11 @@
 //! Every tester over the queries of one light, against the arbiter.
 
-use super::{Queries, TesterCounts, VerdictCounts};
+use super::{Cause, CauseCounts, Queries, TesterCounts, VerdictCounts};
 use crate::error::Result;
-use crate::measure::{answer, timed};
+use crate::measure::{Timed, answer, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
 use crate::shadow::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
+use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 
 /// One tester's answers to the queries of a light, and what they cost.
@@ -35,6 +36,8 @@ pub struct TesterResult {
     pub run: TesterRun,
     /// Right and wrong.
     pub counts: TesterCounts,
+    /// What its wrong answers are put down to, if it traces float rays.
+    pub causes: Option<CauseCounts>,
 }
 
 /// The verdict on one light.
@@ -85,24 +88,52 @@ pub fn judge(
     let truth: Vec<bool> = decided.value.iter().map(|t| t.occlusion == Occlusion::Occluded).collect();
     let touching: Vec<bool> = decided.value.iter().map(|t| t.contact == Contact::Touching).collect();
     for entry in entries {
-        let run = match entry.basis {
-            Basis::Truth => TesterRun {
-                name: entry.name,
-                basis: entry.basis,
-                occluded: truth.clone(),
-                counters: Counters::default(),
-                build_seconds: arbiter.seconds,
-                ns_per_query: per_query(decided.seconds, points.len()),
-                bytes: arbiter.value.bytes(),
-                statistics: Vec::new(),
-            },
-            _ => run_tester(entry, input, queries, progress)?,
+        let (run, tester) = match entry.basis {
+            Basis::Truth => (truth_run(entry, &arbiter, &truth, decided.seconds), None),
+            _ => {
+                let (run, tester) = ask(entry, input, queries, progress)?;
+                (run, Some(tester))
+            }
         };
         let counts = TesterCounts::new(&run.occluded, &truth, run.counters.undecided);
-        testers.push(TesterResult { run, counts });
+        let causes = tester.and_then(|t| causes(t.as_ref(), &arbiter.value, points, &run.occluded, &truth));
+        testers.push(TesterResult { run, counts, causes });
     }
     let counts = verdicts(&truth, &touching, &testers);
     Ok(LightVerdict { truth, touching, testers, counts })
+}
+
+/// The arbiter's own row.
+fn truth_run(entry: &TesterEntry, arbiter: &Timed<Arbiter>, truth: &[bool], seconds: f64) -> TesterRun {
+    TesterRun {
+        name: entry.name,
+        basis: entry.basis,
+        occluded: truth.to_vec(),
+        counters: Counters::default(),
+        build_seconds: arbiter.seconds,
+        ns_per_query: per_query(seconds, truth.len()),
+        bytes: arbiter.value.bytes(),
+        statistics: Vec::new(),
+    }
+}
+
+/// What a tester's wrong answers are put down to; `None` if it traces no float rays.
+fn causes(
+    tester: &dyn ShadowTester,
+    arbiter: &Arbiter,
+    points: &[SurfacePoint],
+    answers: &[bool],
+    truth: &[bool],
+) -> Option<CauseCounts> {
+    // A point in the light has no ray, others next to it have.
+    points.iter().take(64).find_map(|point| tester.traced_ray(point))?;
+    let wrong: Vec<usize> = (0..points.len()).filter(|&i| answers[i] != truth[i]).collect();
+    let cause = |&i: &usize| Some(Cause::of(arbiter, &tester.traced_ray(&points[i])?, answers[i]));
+    let mut counts = CauseCounts::default();
+    for cause in wrong.par_iter().filter_map(cause).collect::<Vec<_>>() {
+        counts.add(cause);
+    }
+    Some(counts)
 }
 
 /// Builds one tester and lets it answer all queries of a light.
@@ -115,11 +146,20 @@ pub fn run_tester(
     queries: &Queries,
     progress: &dyn Progress,
 ) -> Result<TesterRun> {
+    Ok(ask(entry, input, queries, progress)?.0)
+}
+
+fn ask<'a>(
+    entry: &TesterEntry,
+    input: &BuildInput<'a>,
+    queries: &Queries,
+    progress: &dyn Progress,
+) -> Result<(TesterRun, Box<dyn ShadowTester + 'a>)> {
     progress.stage(entry.name);
     let built = timed(|| (entry.build)(input));
     let tester = built.value?;
     let answers = answer(tester.as_ref(), &queries.points, &|n| progress.advance(n))?;
-    Ok(TesterRun {
+    let run = TesterRun {
         name: entry.name,
         basis: entry.basis,
         occluded: answers.occluded,
@@ -128,7 +168,8 @@ pub fn run_tester(
         ns_per_query: per_query(answers.seconds, queries.points.len()),
         bytes: tester.bytes(),
         statistics: tester.statistics(),
-    })
+    };
+    Ok((run, tester))
 }
 
 /// What a long run tells about itself.

@@ -1,10 +1,12 @@
 //! Masks against truth: counts, and a verdict for every query.
 
+mod cause;
 mod check;
 mod counts;
 mod judge;
 mod maps;
 
+pub use cause::{Cause, CauseCounts};
 pub use check::{ArbiterCheck, check_arbiter};
 pub use counts::{TesterCounts, VerdictCounts};
 pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, run_tester};

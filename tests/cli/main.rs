@@ -7,6 +7,7 @@ mod info;
 mod masks;
 mod outputs;
 mod render;
+mod replay;
 mod usage;
 mod validate;
 mod view;

@@ -203,6 +203,21 @@ pub fn side((normal, value): &(IntegerVector, IBig), point: &RelativePoint) -> i
     sign(&(dot(normal, &point.xyz) - value * &point.w))
 }
 
+/// Whether a float is at most numerator / denominator, exactly; the denominator is positive. Infinities are
+/// beyond every quotient.
+pub fn at_most(value: f32, numerator: &IBig, denominator: &IBig) -> bool {
+    if value.is_infinite() {
+        return value < 0.0;
+    }
+    let (mantissa, exponent) = decode(value);
+    let product = denominator * IBig::from(mantissa);
+    if exponent >= 0 {
+        product << exponent as usize <= *numerator
+    } else {
+        product <= numerator << (-exponent) as usize
+    }
+}
+
 /// How a closed triangle lies to the open segment between a light and a point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Meeting {

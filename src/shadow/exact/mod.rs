@@ -9,6 +9,10 @@ mod integer;
 mod interval;
 pub mod plain;
 mod touching;
+mod traced;
+
+pub use integer::Meeting;
+pub use traced::Span;
 
 use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
 use crate::error::Result;
@@ -17,7 +21,6 @@ use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::{PointSource, SurfacePoint};
 use glam::Vec3;
 use hierarchy::{Hierarchy, Visit};
-use integer::Meeting;
 use interval::{Box3, Decided, cross, dot, minus};
 use rayon::prelude::*;
 
@@ -110,6 +113,26 @@ impl<'a> Arbiter<'a> {
     /// The corners of a triangle that casts.
     fn corners(&self, casting: u32) -> [Vec3; 3] {
         self.scene.corners(self.triangles[casting as usize])
+    }
+
+    /// Every triangle that casts and that the segment of a point meets, but for those in the receiver's own
+    /// plane, in the order of their indices.
+    pub fn meetings(&self, point: &SurfacePoint) -> Vec<(PrimitiveIndex, Meeting)> {
+        let position = point.exact(self.scene);
+        let absolute = absolute_box(&relative_box(&position, self.light), self.light);
+        let receiver = point.primitive().map(|primitive| self.scene.corners(primitive));
+        let mut found = Vec::new();
+        self.hierarchy.walk(self.light, &absolute, |t| {
+            let corners = self.corners(t);
+            let meeting = integer::meet(self.light, corners, &position);
+            let is_own_plane = || receiver.is_some_and(|r| integer::is_coplanar(r, corners));
+            if meeting != Meeting::Misses && !(meeting == Meeting::EndsOn && is_own_plane()) {
+                found.push((self.triangles[t as usize], meeting));
+            }
+            Visit::Continue
+        });
+        found.sort_by_key(|(primitive, _)| *primitive);
+        found
     }
 
     /// The truth about one point.
