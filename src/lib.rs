@@ -20,6 +20,7 @@
 //! | [`shadow`] | [`ShadowTester`], the registry, one room a tester |
 //! | [`shading`] | ambient, Lambert and Phong |
 //! | [`film`] | image planes, OpenEXR, PNG, false colour |
+//! | [`memory`] | the limit that is checked before memory is asked for |
 //! | [`measure`] | running and timing testers |
 //! | [`verdict`] | masks against the truth |
 //! | [`report`] | JSON, tables, image channels |
@@ -46,7 +47,7 @@
 //! use glam::Vec3;
 //! use lightbuffer::geometry::LightPosition;
 //! use lightbuffer::scene::{ObjectInput, SceneBuilder};
-//! use lightbuffer::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, find};
+//! use lightbuffer::shadow::{BuildInput, Receivers, SceneIndex, find};
 //! use lightbuffer::SurfacePoint;
 //!
 //! # fn main() -> lightbuffer::Result<()> {
@@ -58,13 +59,10 @@
 //! ))?;
 //! let scene = builder.finish();
 //! let index = SceneIndex::new(&scene);
+//! let light = LightPosition::At(Vec3::new(0.0, 2.0, 0.0));
 //! let tester = (find("light-buffer")?.build)(&BuildInput {
-//!     scene: &scene,
-//!     index: &index,
-//!     light: LightPosition::At(Vec3::new(0.0, 2.0, 0.0)),
-//!     resolution: Resolution::Auto,
 //!     receivers: Receivers::Anywhere,
-//!     embree: EmbreeSettings { epsilon: 0.0, threads: 1 },
+//!     ..BuildInput::new(&scene, &index, light)
 //! })?;
 //! let points = [Vec3::ZERO, Vec3::new(5.0, 0.0, 0.0)].map(|p| SurfacePoint::bare(p).expect("finite"));
 //! let mut occluded = [false; 2];
@@ -81,6 +79,7 @@ pub mod error;
 pub mod film;
 pub mod geometry;
 pub mod measure;
+pub mod memory;
 pub mod report;
 pub mod scene;
 pub mod shading;

@@ -8,9 +8,7 @@ use lightbuffer::shadow::brute_force::BruteForce;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{
-    BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, ShadowTester, exact,
-};
+use lightbuffer::shadow::{BuildInput, Receivers, Resolution, SceneIndex, ShadowTester, exact};
 use lightbuffer::visibility::{SurfacePoint, classical, t_buffer};
 
 fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
@@ -32,8 +30,7 @@ fn all_agree(scene: &Scene, light: impl Into<LightPosition>, points: &[SurfacePo
     let plain = PlainTest::new(scene, light, points);
     let truth: Vec<bool> = points.iter().map(|p| plain.decide(p) == Occlusion::Occluded).collect();
     let index = SceneIndex::new(scene);
-    let embree = EmbreeSettings { epsilon: 0.0, threads: 1 };
-    let input = |resolution| BuildInput { scene, index: &index, light, resolution, receivers, embree };
+    let input = |resolution| BuildInput { resolution, receivers, ..BuildInput::new(scene, &index, light) };
     let check = |name: String, tester: &dyn ShadowTester| {
         let mut answers = vec![false; points.len()];
         tester.occluded(points, &mut answers).unwrap();

@@ -6,7 +6,7 @@
 use lightbuffer::measure::{answer, timed};
 use lightbuffer::scene::{Camera, Framing, ImageSize, Scene, formats, frame};
 use lightbuffer::shadow::facing::Sides;
-use lightbuffer::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, find};
+use lightbuffer::shadow::{BuildInput, Resolution, SceneIndex, find};
 use lightbuffer::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
 use lightbuffer::visibility::{VisibleSurfaces, classical, t_buffer};
 use std::path::PathBuf;
@@ -82,14 +82,8 @@ impl View {
     }
 
     fn input(&self, light: usize, resolution: Resolution) -> BuildInput<'_> {
-        BuildInput {
-            scene: &self.scene,
-            index: &self.index,
-            light: self.scene.lights[light].position(),
-            resolution,
-            receivers: Receivers::Surfaces,
-            embree: EmbreeSettings { epsilon: 1e-4, threads: rayon::current_num_threads() },
-        }
+        let light = self.scene.lights[light].position();
+        BuildInput { resolution, ..BuildInput::new(&self.scene, &self.index, light) }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
+use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
-use crate::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex};
+use crate::shadow::{BuildInput, EmbreeSettings, Resolution, SceneIndex};
 use clap::Args;
 use glam::Vec3;
 use std::path::PathBuf;
@@ -83,6 +84,9 @@ pub struct RunOptions {
     /// Threads [default: all]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// The most memory that the image or a tester may need, such as 16G [default: what the machine has free]
+    #[arg(long, value_name = "BYTES", value_parser = memory::parse)]
+    pub memory_limit: Option<MemoryLimit>,
     /// Brighten PNG previews by this many stops
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_hyphen_values = true,
           value_parser = parse_stops)]
@@ -104,13 +108,16 @@ impl RunOptions {
         light: LightPosition,
     ) -> BuildInput<'a> {
         BuildInput {
-            scene,
-            index,
-            light,
             resolution: self.resolution,
-            receivers: Receivers::Surfaces,
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
+            memory: self.memory_limit(),
+            ..BuildInput::new(scene, index, light)
         }
+    }
+
+    /// The most memory that anything may need.
+    pub fn memory_limit(&self) -> MemoryLimit {
+        self.memory_limit.unwrap_or_else(MemoryLimit::of_this_machine)
     }
 
     /// The pool that everything parallel runs in.

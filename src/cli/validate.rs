@@ -78,7 +78,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(&args.view);
+    let seen = view.look(&args.view, args.run.memory_limit())?;
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
@@ -101,7 +101,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let verdict = judge(&input, &queries, &fitting, &bars)?;
-        let mut entry = LightReport::new(&light.name, &queries, &verdict);
+        let mut entry = LightReport::new(&light.name, args.view.size.width, &queries, &verdict);
         if args.check_arbiter > 0 {
             bars.stage("arbiter against integers");
             let most = args.check_arbiter;

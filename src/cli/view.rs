@@ -3,9 +3,12 @@
 use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
+use crate::memory::MemoryLimit;
 use crate::scene::{Camera, Falloff, Framing, Light, PointLight, Scene, formats, frame};
+use crate::shading::ShadedPoint;
+use crate::shadow::REGISTRY;
 use crate::shadow::facing::Sides;
-use crate::visibility::{FirstHits, VisibleSurfaces, t_buffer};
+use crate::visibility::{FirstHits, SurfacePoint, VisibleSurfaces, t_buffer};
 use glam::Vec3;
 
 /// A scene ready to be looked at.
@@ -45,13 +48,31 @@ impl View {
     }
 
     /// First hits by the t-buffer, the points behind them, and the camera's side of every triangle.
-    pub fn look(&self, options: &ViewOptions) -> Seen {
+    ///
+    /// # Errors
+    /// If the image with the masks of all lights would need more memory than the limit.
+    pub fn look(&self, options: &ViewOptions, limit: MemoryLimit) -> Result<Seen> {
+        let lights = self.scene.lights.len() as u64;
+        let what = format!(
+            "an image of {}x{} pixels with {}",
+            options.size.width,
+            options.size.height,
+            if lights == 1 { "a light".into() } else { format!("{lights} lights") }
+        );
+        limit.check(what, options.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
         let hits = t_buffer::first_hits(&self.scene, &self.camera, options.size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
         let eye = Sides::of(&self.scene, self.camera.origin);
-        Seen { hits, visible, eye }
+        Ok(Seen { hits, visible, eye })
     }
 }
+
+/// Bytes of a pixel: planes of the picture, its item in the t-buffer, its surface point and shading.
+const PIXEL_BYTES: u64 =
+    14 * size_of::<f32>() as u64 + 32 + size_of::<SurfacePoint>() as u64 + size_of::<ShadedPoint>() as u64;
+
+/// Bytes of a pixel a light: its query, and a mask and a plane a tester.
+const LIGHT_BYTES: u64 = size_of::<SurfacePoint>() as u64 + 4 + 5 * (REGISTRY.len() as u64 + 2);
 
 /// What the camera sees.
 pub struct Seen {

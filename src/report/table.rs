@@ -1,6 +1,6 @@
 //! Verdict tables for people.
 
-use super::validation::{TesterReport, Totals, Validation};
+use super::validation::{TesterReport, Totals, Validation, WrongPixel};
 use crate::film::grouped;
 use crate::shadow::{Counters, REGISTRY};
 use crate::verdict::{Cause, TesterRun};
@@ -43,6 +43,14 @@ pub fn verdict_table(report: &Validation) -> String {
     text.push_str(&summary(&report.totals));
     for (name, tester) in &report.totals.testers {
         text.push_str(&causes(name, tester));
+    }
+    let wrong = report.lights.iter().find_map(|light| Some((light, light.wrong_pixels.first()?)));
+    if let Some((light, WrongPixel { pixel: [x, y], .. })) = wrong {
+        let _ = writeln!(
+            text,
+            "to see why: replay with --size {}x{} --pixel {x},{y} --light {}",
+            report.width, report.height, light.name
+        );
     }
     for skipped in &report.skipped {
         let _ = writeln!(text, "skipped: {skipped} would need more than 2e11 tests");

@@ -59,6 +59,8 @@ pub struct LightReport {
     pub testers: BTreeMap<&'static str, TesterReport>,
     /// Who is right where.
     pub verdicts: VerdictCounts,
+    /// The first pixels, row by row, where some tester is wrong, at most [`LightReport::MOST_WRONG_PIXELS`].
+    pub wrong_pixels: Vec<WrongPixel>,
     /// The arbiter against the plain definition, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arbiter_check: Option<ArbiterCheck>,
@@ -96,9 +98,23 @@ pub struct Totals {
     asked: BTreeMap<&'static str, u64>,
 }
 
+/// A pixel for `replay`.
+#[derive(Debug, Clone, Serialize)]
+pub struct WrongPixel {
+    /// Column and row from the top left.
+    pub pixel: [u32; 2],
+    /// Whether it is occluded.
+    pub truth: bool,
+    /// Testers that say otherwise.
+    pub testers: Vec<&'static str>,
+}
+
 impl LightReport {
-    /// The report on one light.
-    pub fn new(name: &str, queries: &Queries, verdict: &LightVerdict) -> LightReport {
+    /// The most pixels that are listed.
+    pub const MOST_WRONG_PIXELS: usize = 100;
+
+    /// The report on one light of an image of a width.
+    pub fn new(name: &str, width: u32, queries: &Queries, verdict: &LightVerdict) -> LightReport {
         let report = |t: &TesterResult| TesterReport {
             counts: t.counts,
             causes: t.causes,
@@ -114,9 +130,21 @@ impl LightReport {
             not_receiving: queries.not_receiving.len() as u64,
             testers: verdict.testers.iter().map(|t| (t.run.name, report(t))).collect(),
             verdicts: verdict.counts,
+            wrong_pixels: wrong_pixels(width, queries, verdict),
             arbiter_check: None,
         }
     }
+}
+
+fn wrong_pixels(width: u32, queries: &Queries, verdict: &LightVerdict) -> Vec<WrongPixel> {
+    let wrong = |i: usize| -> Option<WrongPixel> {
+        let truth = verdict.truth[i];
+        let testers: Vec<_> =
+            verdict.testers.iter().filter(|t| t.run.occluded[i] != truth).map(|t| t.run.name).collect();
+        let pixel = [queries.pixels[i] % width, queries.pixels[i] / width];
+        (!testers.is_empty()).then_some(WrongPixel { pixel, truth, testers })
+    };
+    (0..queries.points.len()).filter_map(wrong).take(LightReport::MOST_WRONG_PIXELS).collect()
 }
 
 impl Totals {

@@ -3,6 +3,7 @@
 use super::{Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
+use crate::memory::MemoryLimit;
 use crate::scene::Scene;
 
 /// What a tester's answers rest on.
@@ -31,6 +32,24 @@ pub struct BuildInput<'a> {
     pub receivers: Receivers,
     /// Embree's settings.
     pub embree: EmbreeSettings,
+    /// The most memory that it may need.
+    pub memory: MemoryLimit,
+}
+
+impl<'a> BuildInput<'a> {
+    /// A light over the surfaces of a scene, everything else as usual: resolution `auto`, Embree with its
+    /// usual epsilon, no limit on memory.
+    pub fn new(scene: &'a Scene, index: &'a SceneIndex, light: impl Into<LightPosition>) -> BuildInput<'a> {
+        BuildInput {
+            scene,
+            index,
+            light: light.into(),
+            resolution: Resolution::Auto,
+            receivers: Receivers::Surfaces,
+            embree: EmbreeSettings::default(),
+            memory: MemoryLimit::NONE,
+        }
+    }
 }
 
 /// How Embree is asked.
@@ -38,8 +57,16 @@ pub struct BuildInput<'a> {
 pub struct EmbreeSettings {
     /// Rays run from `epsilon` to 1 - `epsilon` of the segment.
     pub epsilon: f32,
-    /// Threads that Embree may build with.
+    /// Threads that Embree may build with; 0 means as many as the machine has.
     pub threads: usize,
+}
+
+impl Default for EmbreeSettings {
+    /// All threads, and the epsilon that renderers usually give it, as a share of the segment (pbrt's shadow
+    /// epsilon).
+    fn default() -> EmbreeSettings {
+        EmbreeSettings { epsilon: 1e-4, threads: 0 }
+    }
 }
 
 /// A tester by name.

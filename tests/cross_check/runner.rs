@@ -8,7 +8,7 @@ use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::facing::Sides;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{BuildInput, EmbreeSettings, Receivers, Resolution, SceneIndex, TesterEntry};
+use lightbuffer::shadow::{BuildInput, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
 use lightbuffer::verdict::Queries;
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
@@ -40,12 +40,9 @@ impl<'a> Asked<'a> {
 
     fn input(&self, light: LightPosition, setting: Setting) -> BuildInput<'_> {
         BuildInput {
-            scene: &self.case.scene,
-            index: &self.index,
-            light,
             resolution: setting.resolution,
-            receivers: Receivers::Surfaces,
-            embree: EmbreeSettings { epsilon: 1e-4, threads: setting.threads },
+            embree: EmbreeSettings { threads: setting.threads, ..EmbreeSettings::default() },
+            ..BuildInput::new(&self.case.scene, &self.index, light)
         }
     }
 

@@ -11,6 +11,7 @@ use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::planes::{OrientedPlanes, oriented};
+use crate::memory::MemoryLimit;
 use crate::shadow::{BuildInput, Casters, Receivers};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -64,6 +65,7 @@ pub(super) fn build(
             sides.push(None);
             continue;
         }
+        check_memory(&casts, &grid, resolution, input.memory)?;
         let window = Window::around(&casts);
         let bands = bands(&window);
         let lists: Vec<Band> = bands
@@ -87,6 +89,27 @@ fn project(input: &BuildInput, casters: &Casters, frame: &Frame, grid: &Grid) ->
             Some(Cast { caster: caster as u32, footprint })
         })
         .collect()
+}
+
+/// Checks what the lists of one side can need before they are made: an entry and its place in the order for
+/// every cell of every cast.
+fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, limit: MemoryLimit) -> Result<()> {
+    const ENTRY_BYTES: u64 = (size_of::<(u32, u32)>() + size_of::<u32>() + size_of::<Record>()) as u64;
+    let what = || format!("the lists of a light buffer of {resolution} cells along an edge");
+    let around = |cast: &Cast| {
+        let ([left, right], [top, bottom]) = (cast.footprint.columns(), cast.footprint.rows());
+        u64::from(right - left + 1) * u64::from(bottom - top + 1)
+    };
+    // The boxes around the footprints are quick to count; rows are looked at only if those are too many.
+    if limit.check(what(), ENTRY_BYTES.saturating_mul(casts.iter().map(around).sum())).is_ok() {
+        return Ok(());
+    }
+    let row_by_row = |cast: &Cast| -> u64 {
+        let [top, bottom] = cast.footprint.rows();
+        let spans = (top..=bottom).filter_map(|row| cast.footprint.span(grid, row));
+        spans.map(|[left, right]| u64::from(right - left + 1)).sum()
+    };
+    limit.check(what(), ENTRY_BYTES.saturating_mul(casts.par_iter().map(row_by_row).sum()))
 }
 
 /// Rows in pieces of about equal numbers of cells.

@@ -142,6 +142,9 @@ impl<'a> LightBuffer<'a> {
         };
         let corners = casters.primitives.iter().flat_map(|&primitive| input.scene.corners(primitive));
         let cells = Cells::new(&casters.space, corners);
+        // Lists are checked when their length is known.
+        let headers = cells.sides() as u64 * u64::from(resolution).pow(2) * size_of::<Header>() as u64;
+        input.memory.check(format!("a light buffer of {resolution} cells along an edge"), headers)?;
         let (sides, statistics) = build::build(input, &casters, &cells, resolution)?;
         Ok(LightBuffer {
             scene: input.scene,

@@ -4,7 +4,7 @@ use super::cube::Face;
 use super::*;
 use crate::geometry::LightPosition;
 use crate::scene::{ObjectInput, SceneBuilder};
-use crate::shadow::{EmbreeSettings, SceneIndex};
+use crate::shadow::SceneIndex;
 use dashu_int::IBig;
 use glam::Vec3;
 use proptest::prelude::*;
@@ -31,13 +31,10 @@ fn build_for<'a>(
     resolution: u32,
 ) -> LightBuffer<'a> {
     let input = BuildInput {
-        scene,
-        index,
-        light,
         resolution: Resolution::Cells(resolution),
         // Nothing may be left out of the lists but what full occlusions cut off.
         receivers: Receivers::Anywhere,
-        embree: EmbreeSettings { epsilon: 0.0, threads: 1 },
+        ..BuildInput::new(scene, index, light)
     };
     LightBuffer::new(&input).unwrap()
 }
@@ -296,14 +293,7 @@ fn a_convex_solid_does_not_test_itself() {
 fn points_in_space_need_a_buffer_built_for_them() {
     let scene = scene(&[[[-4, -4, 3], [4, -4, 3], [0, 4, 3]]]);
     let index = SceneIndex::new(&scene);
-    let input = BuildInput {
-        scene: &scene,
-        index: &index,
-        light: Vec3::ZERO.into(),
-        resolution: Resolution::Auto,
-        receivers: Receivers::Surfaces,
-        embree: EmbreeSettings { epsilon: 0.0, threads: 1 },
-    };
+    let input = BuildInput::new(&scene, &index, Vec3::ZERO);
     let buffer = LightBuffer::new(&input).unwrap();
     let error = buffer.occluded(&[SurfacePoint::bare(Vec3::Z).unwrap()], &mut [false]).unwrap_err();
     assert!(error.to_string().contains("Receivers::Anywhere"));
