@@ -18,6 +18,7 @@ pub mod position;
 pub mod ray_triangle;
 mod rounding;
 mod sign;
+pub mod texel;
 
 pub use light_position::{LightPosition, LightSpace};
 pub use light_triangle::{Filtered, LightPoint, LightTriangle};

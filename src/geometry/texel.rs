@@ -1,0 +1,151 @@
+//! Which texel of an image a point of a triangle shows, exactly.
+//!
+//! Texture coordinates are linear on the triangle: with barycentric weights proportional to w0, w1, w2 the
+//! coordinate u is (w0 u0 + w1 u1 + w2 u2) / (w0 + w1 + w2), and in an image of n texels the place is the
+//! floor of n u. Weights are the edge functions of a ray or segment, of degree 6 in the inputs at most.
+
+use super::ROUNDOFF;
+use super::expansion::Expansion;
+use super::rounding::units;
+use dashu_int::IBig;
+use dashu_int::ops::DivRemEuclid;
+
+/// An axis of an image over a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TexelAxis {
+    /// Texture coordinates of the three corners.
+    pub coordinates: [f32; 3],
+    /// Texels from coordinate 0 to 1, at least 1.
+    pub size: u32,
+}
+
+/// The three weights of a point, not negative and not all zero.
+pub struct Weights<F> {
+    /// Values, and the bounds of their errors.
+    pub rounded: [(f64, f64); 3],
+    /// The same exactly, for when rounding leaves the texel open.
+    pub exact: F,
+}
+
+impl<F: Fn() -> [Expansion; 3]> Weights<F> {
+    /// The texels of two axes that the point shows, counted from coordinate 0 over all repetitions of the
+    /// image. Places beyond 64 bits are moved by multiples of twice the size, which no repetition notices.
+    pub fn texels(&self, axes: &[TexelAxis; 2]) -> [Place; 2] {
+        let rounded = axes.map(|axis| self.rounded_place(&axis));
+        if let [Some(column), Some(row)] = rounded {
+            return [Place::Near(column), Place::Near(row)];
+        }
+        let exact = (self.exact)();
+        axes.map(|axis| exact_place(&exact, &axis))
+    }
+
+    /// The place, if the bounds allow no other.
+    fn rounded_place(&self, axis: &TexelAxis) -> Option<i64> {
+        let [w0, w1, w2] = self.rounded;
+        let [u0, u1, u2] = axis.coordinates.map(|u| f64::from(u) * f64::from(axis.size));
+        let sum = w0.0 + w1.0 + w2.0;
+        let sum_error = w0.1 + w1.1 + w2.1 + 4.0 * ROUNDOFF * (w0.0.abs() + w1.0.abs() + w2.0.abs());
+        let terms = [w0.0 * u0, w1.0 * u1, w2.0 * u2];
+        let size = terms.map(f64::abs).iter().sum::<f64>();
+        let total_error = w0.1 * u0.abs() + w1.1 * u1.abs() + w2.1 * u2.abs() + 8.0 * ROUNDOFF * size;
+        let value = (terms[0] + terms[1] + terms[2]) / sum;
+        let error = 2.0 * (total_error + value.abs() * sum_error) / (sum - sum_error)
+            + 4.0 * ROUNDOFF * value.abs()
+            + f64::MIN_POSITIVE;
+        let certain =
+            sum > 2.0 * sum_error && value.abs() < 1e15 && (value - error).floor() == (value + error).floor();
+        certain.then(|| value.floor() as i64)
+    }
+}
+
+/// A texel along one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Counted from coordinate 0.
+    Near(i64),
+    /// The same, too far away to be counted: on that side, and shown like this place by repetition.
+    Far {
+        /// Whether coordinates grow towards it.
+        beyond: bool,
+        /// From 0 up, below twice the size.
+        repeated: i64,
+    },
+}
+
+fn exact_place(weights: &[Expansion; 3], axis: &TexelAxis) -> Place {
+    // Weights and coordinates count in units of 2^-1074 each, so the quotient counts in one too.
+    let weights = weights.each_ref().map(units);
+    let sum = &weights[0] + &weights[1] + &weights[2];
+    let weighted = |i: usize| &weights[i] * units(&axis.coordinates[i].into());
+    let numerator = (weighted(0) + weighted(1) + weighted(2)) * IBig::from(axis.size);
+    let (place, _) = numerator.div_rem_euclid(sum << 1074usize);
+    i64::try_from(&place).map_or_else(
+        |_| {
+            let period = IBig::from(2 * i64::from(axis.size));
+            let beyond = place > IBig::ZERO;
+            let (_, repeated) = place.div_rem_euclid(period);
+            Place::Far {
+                beyond,
+                repeated: i64::try_from(&IBig::from(repeated)).expect("below twice the size"),
+            }
+        },
+        Place::Near,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn texels(weights: [f32; 3], error: f64, coordinates: [f32; 3], size: u32) -> Place {
+        let axis = TexelAxis { coordinates, size };
+        let exact = || weights.map(Expansion::from);
+        Weights { rounded: weights.map(|w| (f64::from(w), error)), exact }.texels(&[axis; 2])[0]
+    }
+
+    #[test]
+    fn borders_belong_to_the_texel_that_they_begin() {
+        let place = |weights, coordinates| texels(weights, 0.0, coordinates, 4);
+        assert_eq!(place([1.0, 0.0, 0.0], [0.25, 9.0, 9.0]), Place::Near(1));
+        assert_eq!(place([1.0, 0.0, 0.0], [0.25f32.next_down(), 9.0, 9.0]), Place::Near(0));
+        assert_eq!(place([1.0, 1.0, 2.0], [0.0, 1.0, 0.5]), Place::Near(2));
+        assert_eq!(place([1.0, 0.0, 0.0], [-f32::from_bits(1), 0.0, 0.0]), Place::Near(-1));
+    }
+
+    #[test]
+    fn places_beyond_64_bits_are_repeated() {
+        // 3e38 * 3 is a multiple of 6 plus what its bits say; both ways of counting must agree.
+        let far = 2f32.powi(100);
+        let Place::Far { beyond, repeated } = texels([1.0, 0.0, 0.0], 0.0, [far, 0.0, 0.0], 3) else {
+            panic!()
+        };
+        // 3 * 2^100 is an odd multiple of 3 doubled a hundred times: a multiple of 6.
+        assert_eq!((beyond, repeated), (true, 0));
+        let Place::Far { beyond, repeated } = texels([1.0, 0.0, 0.0], 0.0, [-far, 0.0, 0.0], 5) else {
+            panic!()
+        };
+        assert_eq!((beyond, repeated), (false, 0));
+    }
+
+    proptest! {
+        #[test]
+        fn rounding_never_decides_wrongly(
+            weights in prop::array::uniform3(0.0f32..1.0),
+            coordinates in prop::array::uniform3(-3.0f32..3.0),
+            noise in -1.0f64..1.0,
+            size in 1u32..2000,
+        ) {
+            prop_assume!(weights.iter().sum::<f32>() > 0.0);
+            let exact = texels(weights, f64::INFINITY, coordinates, size);
+            prop_assert_eq!(texels(weights, 0.0, coordinates, size), exact);
+            // Weights that are off by as much as they say they may be.
+            let axis = TexelAxis { coordinates, size };
+            for bound in [1e-12, 1e-6, 1e-3] {
+                let rounded = weights.map(|w| (f64::from(w) + noise * bound, bound));
+                let found = Weights { rounded, exact: || weights.map(Expansion::from) }.texels(&[axis; 2])[0];
+                prop_assert_eq!(found, exact);
+            }
+        }
+    }
+}
