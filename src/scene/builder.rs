@@ -316,7 +316,10 @@ mod tests {
             ObjectInput { material, texture_coordinates, ..object(&positions, &[[0, 0, 1], [0, 1, 2]]) }
         };
         for (input, words) in [
-            (ObjectInput { texture_coordinates: None, ..input(masked, 0.0, 0) }, "no texture coordinates for"),
+            (
+                ObjectInput { texture_coordinates: None, ..input(masked, 0.0, 0) },
+                "no texture coordinates for",
+            ),
             (input(masked, f32::INFINITY, 0), "texture coordinates that are not finite"),
             (input(masked, 0.0, 2), "texture coordinate 2 of 2"),
             (input(broken, 0.0, 0), "no alpha mask 9"),

@@ -78,7 +78,9 @@ impl Wanted {
             Wanted::Weights => "FLOAT or normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
             Wanted::Rotations => "FLOAT or normalized BYTE or SHORT",
             Wanted::TextureCoordinates if !quantized => "FLOAT or normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
-            Wanted::Positions | Wanted::TextureCoordinates if quantized => "FLOAT or integers of 8 or 16 bits",
+            Wanted::Positions | Wanted::TextureCoordinates if quantized => {
+                "FLOAT or integers of 8 or 16 bits"
+            }
             Wanted::Displacements if quantized => "FLOAT, BYTE or SHORT",
             Wanted::Normals if quantized => "FLOAT or normalized BYTE or SHORT",
             _ => "FLOAT",
@@ -216,9 +218,7 @@ impl<'a> Accessors<'a> {
     fn strided(&self, view: u64, offset: u64, count: u64, size: usize) -> Result<Packed<'a>, String> {
         let stride = self.view(view)?.byte_stride.unwrap_or(size as u64);
         if stride < size as u64 || stride > MAX_STRIDE {
-            return Err(format!(
-                "bufferView {view}: byteStride {stride}, expected {size} to {MAX_STRIDE}"
-            ));
+            return Err(format!("bufferView {view}: byteStride {stride}, expected {size} to {MAX_STRIDE}"));
         }
         // At most MAX_STRIDE.
         self.within(view, offset, count, Packed { bytes: &[], stride: stride as usize, size })
@@ -228,7 +228,13 @@ impl<'a> Accessors<'a> {
     ///
     /// # Errors
     /// A line if the view or its buffer does not exist, says another distance, or holds fewer bytes.
-    pub(super) fn packed(&self, view: u64, offset: u64, count: u64, size: usize) -> Result<Packed<'a>, String> {
+    pub(super) fn packed(
+        &self,
+        view: u64,
+        offset: u64,
+        count: u64,
+        size: usize,
+    ) -> Result<Packed<'a>, String> {
         match self.view(view)?.byte_stride {
             None => self.within(view, offset, count, Packed { bytes: &[], stride: size, size }),
             Some(stride) => Err(format!("bufferView {view}: expected no byteStride, found {stride}")),

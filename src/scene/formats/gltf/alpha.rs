@@ -10,7 +10,7 @@ use super::images::{self, Spent};
 use super::schema::{Document, MaterialEntry};
 use super::textures::{self, Placement};
 use crate::scene::formats::text::printable;
-use crate::scene::{AlphaMask, SceneBuilder, Wrap};
+use crate::scene::{AlphaMask, Coverage, SceneBuilder, Wrap};
 use std::collections::BTreeMap;
 
 /// From this alpha on a transparent surface counts as there.
@@ -27,6 +27,16 @@ pub(super) enum Presence {
     Masked(Masking),
     /// Unknown, since the texture is in a format that only an extension knows; drawn everywhere.
     Unreadable,
+}
+
+impl Presence {
+    /// What the scene says of it; what is nowhere there is no part of the scene.
+    pub(super) fn coverage(&self) -> Coverage {
+        match self {
+            Presence::Masked(masking) => Coverage::Masked(masking.mask),
+            Presence::Solid | Presence::Absent | Presence::Unreadable => Coverage::Solid,
+        }
+    }
 }
 
 /// A mask and where a surface lies on it.
@@ -80,7 +90,10 @@ impl<'a> Masks<'a> {
             "MASK" => entry.alpha_cutoff.unwrap_or(0.5),
             "BLEND" => BLEND_CUTOFF,
             other => {
-                return Err(format!("alphaMode: expected OPAQUE, MASK or BLEND, found `{}`", printable(other)));
+                return Err(format!(
+                    "alphaMode: expected OPAQUE, MASK or BLEND, found `{}`",
+                    printable(other)
+                ));
             }
         };
         let surface = &entry.pbr_metallic_roughness;

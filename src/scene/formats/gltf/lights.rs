@@ -28,7 +28,10 @@ fn emitter(entry: &LightEntry, placed: &Placed) -> Result<Emitter, String> {
         "spot" => {
             let point = point(entry, placed)?;
             let [cos_inner, cos_outer] = cosines(&entry.spot)?;
-            Ok(Emitter::Spot(SpotLight { point, cone: Cone { axis: direction(-z_axis)?, cos_inner, cos_outer } }))
+            Ok(Emitter::Spot(SpotLight {
+                point,
+                cone: Cone { axis: direction(-z_axis)?, cos_inner, cos_outer },
+            }))
         }
         "directional" => {
             let irradiance = strength(entry)?;

@@ -9,7 +9,11 @@ use super::textures::Placement;
 ///
 /// # Errors
 /// A line if there are weights, and not one for each target.
-pub(super) fn weights<'a>(node: &'a Node, mesh: &'a Mesh, primitive: &Primitive) -> Result<&'a [f64], String> {
+pub(super) fn weights<'a>(
+    node: &'a Node,
+    mesh: &'a Mesh,
+    primitive: &Primitive,
+) -> Result<&'a [f64], String> {
     let Some(weights) = node.weights.as_ref().or(mesh.weights.as_ref()) else { return Ok(&[]) };
     match weights.len() == primitive.targets.len() {
         true => Ok(weights),

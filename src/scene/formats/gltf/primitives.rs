@@ -124,9 +124,8 @@ pub(super) fn read(
         false => used.partition_point(|&other| other < vertex) as u32,
     };
     let gather = |elements: &Elements| used.iter().map(|&i| elements.vec3(i as usize)).collect();
-    let pairs = |elements: &Elements| {
-        used.iter().map(|&i| DVec2::from_array(elements.numbers(i as usize))).collect()
-    };
+    let pairs =
+        |elements: &Elements| used.iter().map(|&i| DVec2::from_array(elements.numbers(i as usize))).collect();
     Ok(Geometry {
         shape: Shape {
             positions: gather(&positions),

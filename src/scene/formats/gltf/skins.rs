@@ -24,11 +24,7 @@ pub(super) struct Skins<'a> {
 }
 
 impl<'a> Skins<'a> {
-    pub(super) fn new(
-        document: &'a Document,
-        accessors: &'a Accessors<'a>,
-        placed: &[Placed],
-    ) -> Skins<'a> {
+    pub(super) fn new(document: &'a Document, accessors: &'a Accessors<'a>, placed: &[Placed]) -> Skins<'a> {
         let world = |place: &Placed| (place.index as u64, place.world);
         let needed: &[Placed] = if document.skins.is_empty() { &[] } else { placed };
         let worlds = needed.iter().map(world).collect();
@@ -72,7 +68,8 @@ impl<'a> Skins<'a> {
                 return Err(format!("joint {number}: node {node} is a joint already"));
             }
             let world = self.worlds.get(node);
-            let world = world.ok_or_else(|| format!("joint {number}: node {node} is not part of the scene"))?;
+            let world =
+                world.ok_or_else(|| format!("joint {number}: node {node} is not part of the scene"))?;
             let inverse = match inverses {
                 Some(inverses) => nodes::affine(&inverses.numbers(number)).filter(DAffine3::is_finite),
                 None => Some(DAffine3::IDENTITY),
@@ -155,7 +152,7 @@ fn matrix(vertex: usize, sets: &[Influences], matrices: &[DAffine3]) -> Result<D
         }
     }
     match sum > 0.0 {
-        true => Ok(DAffine3 { matrix3: matrix3 * (1.0 / sum), translation: translation / sum }),
+        true => Ok(DAffine3 { matrix3: matrix3 / sum, translation: translation / sum }),
         false => Err(format!("WEIGHTS_0: the weights of element {vertex} are all 0")),
     }
 }

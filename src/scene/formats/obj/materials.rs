@@ -2,8 +2,8 @@
 
 use super::lines::{Lines, Verdict};
 use crate::error::{Error, Place, Result};
-use crate::scene::{Coverage, Material};
 use crate::scene::formats::text::printable;
+use crate::scene::{Coverage, Material};
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
