@@ -16,7 +16,7 @@ pub struct Material {
 }
 
 /// Where a surface is there to be seen and to block light.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Coverage {
     /// Everywhere.
     #[default]
