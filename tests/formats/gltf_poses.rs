@@ -98,7 +98,8 @@ fn skinned() -> Value {
 fn skins_take_the_pose_of_their_joints() {
     let scene = clean(&skinned());
     // Joint 0 moves by (0, 0, 8). Joint 1 takes p to (1, 0, 8) + 2 * quarter turn of (p - (1, 0, 0)).
-    let third = [0.25 * 0.0 + 0.75 * -1.0, 0.25 * 1.0 + 0.75 * -2.0, 8.0];
+    let by_each = [[0.0, 1.0, 8.0], [-1.0, -2.0, 8.0]];
+    let third = [0, 1, 2].map(|axis| 0.25 * by_each[0][axis] + 0.75 * by_each[1][axis]);
     for (found, expected) in corners(&scene)[0].iter().zip([[0.0, 0.0, 8.0], [1.0, 0.0, 8.0], third]) {
         for (a, b) in found.iter().zip(expected) {
             approx::assert_abs_diff_eq!(*a, b, epsilon = 1e-6);
