@@ -1,6 +1,7 @@
 //! From what loaders read to a checked [`Scene`].
 
-use super::{Camera, Light, Material, Object, Scene, Shadowing, Triangle};
+use super::{AlphaMask, Camera, Coverage, Light, Material, Object, Scene, Shadowing};
+use super::{TextureCoordinates, Triangle};
 use crate::error::{Error, Result};
 use glam::Vec3;
 use std::collections::HashMap;
@@ -40,15 +41,25 @@ pub struct ObjectInput {
     pub triangles: Vec<[u32; 3]>,
     /// Shading normals, if the file has them.
     pub normals: Option<SmoothNormals>,
+    /// Where the corners lie in the material's alpha mask; must be there if it has one.
+    pub texture_coordinates: Option<TextureCoordinates>,
     /// Its part in shadows.
     pub shadowing: Shadowing,
 }
 
 impl ObjectInput {
-    /// Triangles of the default material, without shading normals, that cast and receive shadows.
+    /// Triangles of the default material, without shading normals and texture coordinates, that cast and
+    /// receive shadows.
     pub fn new(name: impl Into<String>, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> ObjectInput {
-        let shadowing = Shadowing::default();
-        ObjectInput { name: name.into(), material: 0, positions, triangles, normals: None, shadowing }
+        ObjectInput {
+            name: name.into(),
+            material: 0,
+            positions,
+            triangles,
+            normals: None,
+            texture_coordinates: None,
+            shadowing: Shadowing::default(),
+        }
     }
 }
 
@@ -75,6 +86,12 @@ impl SceneBuilder {
     pub fn add_material(&mut self, material: Material) -> u32 {
         self.scene.materials.push(material);
         self.scene.materials.len() as u32 - 1
+    }
+
+    /// Adds an alpha mask and returns its index, for [`Coverage::Masked`].
+    pub fn add_alpha_mask(&mut self, mask: AlphaMask) -> u32 {
+        self.scene.alpha_masks.push(mask);
+        self.scene.alpha_masks.len() as u32 - 1
     }
 
     /// Adds a light; a name that is taken gets a number.
@@ -113,7 +130,8 @@ impl SceneBuilder {
     /// Adds an object. Triangles with non-finite corners or of zero area are dropped and counted.
     ///
     /// # Errors
-    /// [`Error::Usage`] if an index is out of range or the scene grows past 2^28 elements.
+    /// [`Error::Usage`] if an index is out of range, the material has an alpha mask and the object no texture
+    /// coordinates for it, one of those is not finite, or the scene grows past 2^28 elements.
     pub fn add_object(&mut self, input: ObjectInput) -> Result<()> {
         let scene = &mut self.scene;
         let total = |have: usize, more: usize| have.saturating_add(more) > MAX_ELEMENTS;
@@ -122,14 +140,16 @@ impl SceneBuilder {
         {
             return Err(Error::Usage(format!("more than {MAX_ELEMENTS} vertices or triangles")));
         }
-        if input.material as usize >= scene.materials.len() {
+        let Some(material) = scene.materials.get(input.material as usize) else {
             return Err(Error::Usage(format!("object {}: no material {}", input.name, input.material)));
-        }
+        };
+        let masked = is_masked(&input, material, scene.alpha_masks.len())?;
         check_indices(&input)?;
         let base = scene.vertices.len() as u32;
         let object = scene.objects.len() as u32;
         let first = scene.triangles.len() as u32;
-        let mut corners = Vec::new();
+        let (mut normal_corners, mut texture_corners) = (Vec::new(), Vec::new());
+        let texture_coordinates = input.texture_coordinates.filter(|_| masked);
         for (index, triangle) in input.triangles.iter().enumerate() {
             let points = triangle.map(|v| input.positions[v as usize]);
             if !points.iter().all(|p| p.is_finite()) {
@@ -139,7 +159,10 @@ impl SceneBuilder {
             } else {
                 scene.triangles.push(Triangle { vertices: triangle.map(|v| base + v), object });
                 if let Some(normals) = &input.normals {
-                    corners.push(normals.corners[index]);
+                    normal_corners.push(normals.corners[index]);
+                }
+                if let Some(coordinates) = &texture_coordinates {
+                    texture_corners.push(coordinates.corners[index]);
                 }
             }
         }
@@ -150,7 +173,9 @@ impl SceneBuilder {
             material: input.material,
             first,
             count: scene.triangles.len() as u32 - first,
-            normals: input.normals.map(|n| SmoothNormals { normals: n.normals, corners }),
+            normals: input.normals.map(|n| SmoothNormals { corners: normal_corners, ..n }),
+            texture_coordinates: texture_coordinates
+                .map(|t| TextureCoordinates { corners: texture_corners, ..t }),
             shadowing: input.shadowing,
         });
         Ok(())
@@ -174,6 +199,22 @@ impl SceneBuilder {
     }
 }
 
+/// Whether a material has one of `masks` alpha masks, and the object what that needs.
+fn is_masked(input: &ObjectInput, material: &Material, masks: usize) -> Result<bool> {
+    let Coverage::Masked(mask) = material.coverage else { return Ok(false) };
+    let wrong = |what: String| Err(Error::Usage(format!("object {}: {what}", input.name)));
+    if mask as usize >= masks {
+        return wrong(format!("no alpha mask {mask}"));
+    }
+    let Some(given) = &input.texture_coordinates else {
+        return wrong("no texture coordinates for its alpha mask".into());
+    };
+    match given.coordinates.iter().flatten().all(|coordinate| coordinate.is_finite()) {
+        true => Ok(true),
+        false => wrong("texture coordinates that are not finite".into()),
+    }
+}
+
 fn check_indices(input: &ObjectInput) -> Result<()> {
     let out_of_range = |what: &str, index: u32, count: usize| {
         Error::Usage(format!("object {}: {what} {index} of {count}", input.name))
@@ -183,13 +224,16 @@ fn check_indices(input: &ObjectInput) -> Result<()> {
             return Err(out_of_range("vertex", index, input.positions.len()));
         }
     }
-    if let Some(normals) = &input.normals {
-        if normals.corners.len() != input.triangles.len() {
-            return Err(Error::Usage(format!("object {}: normals for other triangles", input.name)));
+    let normals = input.normals.as_ref().map(|n| ("normal", &n.corners, n.normals.len()));
+    let coordinates = input.texture_coordinates.as_ref();
+    let coordinates = coordinates.map(|t| ("texture coordinate", &t.corners, t.coordinates.len()));
+    for (what, corners, count) in normals.into_iter().chain(coordinates) {
+        if corners.len() != input.triangles.len() {
+            return Err(Error::Usage(format!("object {}: {what}s for other triangles", input.name)));
         }
-        for &index in normals.corners.iter().flatten() {
-            if index as usize >= normals.normals.len() {
-                return Err(out_of_range("normal", index, normals.normals.len()));
+        for &index in corners.iter().flatten() {
+            if index as usize >= count {
+                return Err(out_of_range(what, index, count));
             }
         }
     }
@@ -208,7 +252,7 @@ fn is_degenerate(points: [Vec3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Falloff, PointLight};
+    use crate::scene::{Falloff, PointLight, Wrap};
 
     fn object(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> ObjectInput {
         ObjectInput::new("test", positions.iter().map(|&p| Vec3::from(p)).collect(), triangles.to_vec())
@@ -252,6 +296,42 @@ mod tests {
         let mut builder = SceneBuilder::new("test");
         let error = builder.add_object(object(&[[0.0; 3]], &[[0, 0, 1]])).unwrap_err();
         assert_eq!(error.to_string(), "object test: vertex 1 of 1");
+    }
+
+    #[test]
+    fn masked_objects_need_finite_texture_coordinates_and_no_others_keep_them() {
+        let mut builder = SceneBuilder::new("test");
+        let wrap = [Wrap::Repeat; 2];
+        let mask = builder.add_alpha_mask(AlphaMask::new(2, 1, wrap, |column, _| column == 0));
+        let coverage = Coverage::Masked(mask);
+        let masked = builder.add_material(Material { coverage, ..Material::default() });
+        let coverage = Coverage::Masked(9);
+        let broken = builder.add_material(Material { coverage, ..Material::default() });
+        let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        // The first triangle goes, and its coordinates with it.
+        let input = |material: u32, v: f32, corner: u32| {
+            let coordinates = vec![[0.0, v], [2.0, 0.5]];
+            let corners = vec![[0; 3], [0, 1, corner]];
+            let texture_coordinates = Some(TextureCoordinates { coordinates, corners });
+            ObjectInput { material, texture_coordinates, ..object(&positions, &[[0, 0, 1], [0, 1, 2]]) }
+        };
+        for (input, words) in [
+            (
+                ObjectInput { texture_coordinates: None, ..input(masked, 0.0, 0) },
+                "no texture coordinates for",
+            ),
+            (input(masked, f32::INFINITY, 0), "texture coordinates that are not finite"),
+            (input(masked, 0.0, 2), "texture coordinate 2 of 2"),
+            (input(broken, 0.0, 0), "no alpha mask 9"),
+        ] {
+            assert!(builder.add_object(input).unwrap_err().to_string().contains(words), "{words}");
+        }
+        builder.add_object(input(masked, 0.0, 1)).unwrap();
+        builder.add_object(input(0, 0.0, 1)).unwrap();
+        let scene = builder.finish();
+        let kept = scene.objects[0].texture_coordinates.as_ref().unwrap();
+        assert_eq!((kept.coordinates[1], kept.corners.as_slice()), ([2.0, 0.5], &[[0, 1, 1]][..]));
+        assert!(scene.objects[1].texture_coordinates.is_none());
     }
 
     #[test]

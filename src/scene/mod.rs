@@ -4,6 +4,7 @@
 //! are the scene, exactly. Objects are numbered as in the 1986 paper: object m, surface n, both from 1
 //! when they are printed.
 
+mod alpha;
 mod builder;
 mod camera;
 pub mod formats;
@@ -11,11 +12,12 @@ mod framing;
 mod light;
 mod material;
 
+pub use alpha::{AlphaMask, TextureCoordinates, Wrap};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
 pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
 pub use light::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, SpotLight};
-pub use material::Material;
+pub use material::{Coverage, Material};
 
 use glam::Vec3;
 
@@ -44,6 +46,9 @@ pub struct Object {
     pub count: u32,
     /// Normals for shading alone; they never decide who sees a light.
     pub normals: Option<SmoothNormals>,
+    /// Where its corners lie in the alpha mask of its material; there if and only if that is
+    /// [`Coverage::Masked`].
+    pub texture_coordinates: Option<TextureCoordinates>,
     /// Its part in shadows.
     pub shadowing: Shadowing,
 }
@@ -76,6 +81,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Materials, at least one.
     pub materials: Vec<Material>,
+    /// Where masked materials are holes. Each has both opaque texels and holes when it comes from a file.
+    pub alpha_masks: Vec<AlphaMask>,
     /// Lights, in the order of the file; may be empty before [`frame`].
     pub lights: Vec<Light>,
     /// Cameras, in the order of the file; may be empty before [`frame`].
@@ -95,6 +102,7 @@ impl Scene {
             triangles: Vec::new(),
             objects: Vec::new(),
             materials: vec![Material::default()],
+            alpha_masks: Vec::new(),
             lights: Vec::new(),
             cameras: Vec::new(),
             dropped: Dropped::default(),

@@ -85,7 +85,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn material(diffuse: f32, specular: f32, shininess: f32) -> Material {
-        Material { name: "test".into(), diffuse: [diffuse; 3], specular: [specular; 3], shininess }
+        Material { diffuse: [diffuse; 3], specular: [specular; 3], shininess, ..Material::default() }
     }
 
     fn light(towards: DVec3, irradiance: f64) -> LightSample {

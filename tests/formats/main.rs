@@ -2,7 +2,12 @@
 
 mod demo_scenes;
 mod fixtures;
+mod gltf_accessors;
+mod gltf_alpha;
 mod gltf_files;
+mod gltf_lights;
+mod gltf_parts;
+mod gltf_poses;
 mod obj_files;
 
 use lightbuffer::scene::Scene;

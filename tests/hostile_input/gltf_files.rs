@@ -65,7 +65,7 @@ fn json_of_wrong_types() {
 fn versions_and_extensions_that_are_not_supported() {
     spoilt(|d| d["asset"]["version"] = json!("1.0"), &["asset: expected version 2.0, found `1.0`"]);
     spoilt(|d| d["asset"]["minVersion"] = json!("2.1"), &["it needs version `2.1`"]);
-    for name in ["KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_meshopt_compression"] {
+    for name in ["KHR_draco_mesh_compression", "KHR_meshopt_compression", "EXT_meshopt_compression"] {
         spoilt(|d| d["extensionsRequired"] = json!([name]), &[&format!("`{name}` is not supported")]);
     }
 }
@@ -140,7 +140,7 @@ fn counts_without_bytes_behind_them() {
     );
     spoilt(
         |d| d["accessors"][0] = json!({ "componentType": 5126, "count": 1u64 << 40, "type": "VEC3" }),
-        &["expected a bufferView"],
+        &["accessor 0: 1099511627776 elements without a bufferView, expected at most 4194304"],
     );
 }
 
@@ -195,7 +195,11 @@ fn types_that_do_not_fit() {
     spoilt(|d| d["accessors"][2]["componentType"] = json!(5126), &["indices: accessor 2: expected SCALAR"]);
     spoilt(|d| d["accessors"][2]["type"] = json!("VEC3"), &["found VEC3 of UNSIGNED_SHORT"]);
     spoilt(|d| d["accessors"][0]["type"] = json!("MAT4\n"), &["MAT4\\n"]);
-    spoilt(|d| d["accessors"][0]["sparse"] = json!({}), &["sparse accessors are not supported"]);
+    spoilt(|d| d["accessors"][0]["sparse"] = json!({}), &["bad.gltf:1: missing field `count`"]);
+    spoilt(
+        |d| d["accessors"][1]["componentType"] = json!(5120),
+        &["expected VEC3 of FLOAT, found VEC3 of BYTE"],
+    );
     spoilt(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(7), &["expected a mode from 0 to 6, found 7"]);
     spoilt(
         |d| d["meshes"][0]["primitives"][0]["attributes"] = json!({}),
@@ -326,6 +330,22 @@ fn lights_and_cameras_of_impossible_numbers() {
     );
     spoilt(light(json!({ "type": "point", "range": 0 })), &["light 0: expected a range above 0"]);
     spoilt(light(json!({ "type": "lamp\n" })), &["found `lamp\\n`"]);
+    let cone = |inner: f64, outer: f64| json!({ "type": "spot", "spot": { "innerConeAngle": inner, "outerConeAngle": outer } });
+    for (inner, outer) in [(0.5, 0.5), (0.6, 0.5), (-0.1, 0.5), (0.0, 0.0), (0.0, 1.6), (-2.0, -1.0)] {
+        let words = format!("innerConeAngle < outerConeAngle <= pi/2, found {inner} and {outer}");
+        spoilt(light(cone(inner, outer)), &["node 0 `corner`: light 0: expected 0 <= ", &words]);
+    }
+    for kind in ["spot", "directional"] {
+        spoilt(light(json!({ "type": kind, "color": [1, -1, 0] })), &["expected a colour and an intensity"]);
+        for scale in [0.0, 1e-60, 1e60] {
+            let flat = |d: &mut Value| {
+                light(json!({ "type": kind }))(d);
+                d["nodes"][0]["scale"] = json!([1, 1, scale]);
+            };
+            spoilt(flat, &["light 0: its node's transform leaves no direction to shine in"]);
+        }
+    }
+    spoilt(light(json!({ "type": "spot", "range": -1 })), &["light 0: expected a range above 0"]);
     let camera = |yfov: f64, scale: f64| {
         move |d: &mut Value| {
             d["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": yfov, "znear": 1 } }]);
@@ -339,7 +359,7 @@ fn lights_and_cameras_of_impossible_numbers() {
 }
 
 #[test]
-fn images_are_never_opened() {
+fn images_that_no_mask_needs_are_never_opened() {
     let folder = Folder::new();
     let mut document = triangle();
     let images: Vec<Value> =
@@ -351,6 +371,9 @@ fn images_are_never_opened() {
     document["textures"] = json!((0..images.len()).map(|i| json!({ "source": i })).collect::<Vec<_>>());
     document["images"] = json!(images);
     document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 4 });
+    let mut unused = document["materials"][0].clone();
+    unused["alphaMode"] = json!("MASK");
+    document["materials"].as_array_mut().unwrap().push(unused);
     let scene = formats::load(&folder.write("some.gltf", document.to_string())).unwrap();
-    assert_eq!(scene.warnings, ["textures are not drawn (1 material)"]);
+    assert_eq!(scene.warnings, ["textures are not drawn (2 materials)"]);
 }

@@ -4,7 +4,11 @@
 mod binary_files;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+mod gltf_alpha;
+mod gltf_features;
 mod gltf_files;
+#[path = "../formats/gltf_parts.rs"]
+mod gltf_parts;
 mod mutations;
 mod obj_files;
 mod paths;

@@ -1,9 +1,13 @@
 //! Valid files with bytes flipped, cut off, doubled or replaced: they load, or they are refused in one line.
 
 use crate::assert_one_line;
-use crate::fixtures::{Folder, triangle, triangle_glb};
+use crate::fixtures::{Folder, data_uri, triangle, triangle_glb};
+use crate::gltf_parts::{accessor, attributes, float_accessor, normalized, paint, png, replace};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use lightbuffer::scene::formats;
 use proptest::prelude::*;
+use serde_json::{Value, json};
 
 /// One change of a file; places count in 65536ths of its length.
 #[derive(Debug, Clone)]
@@ -69,6 +73,11 @@ fn check(name: &str, mut file: Vec<u8>, changes: &[Change], mend: impl Fn(&mut V
             assert!(
                 (0..scene.triangles.len() as u32).all(|t| scene.corners(t).iter().all(|p| p.is_finite()))
             );
+            for object in &scene.objects {
+                let mask = scene.materials[object.material as usize].coverage.mask();
+                assert!(mask.is_none_or(|mask| (mask as usize) < scene.alpha_masks.len()));
+                assert_eq!(object.texture_coordinates.is_some(), mask.is_some());
+            }
             for text in scene.warnings.iter().chain(scene.objects.iter().map(|o| &o.name)) {
                 assert!(!text.chars().any(char::is_control), "{text:?}");
             }
@@ -84,19 +93,64 @@ const OBJ: &str = "# remark\nmtllib paint.mtl\no first\nv 0 0 0\nv 1 0 0\nv 1 1 
     usemtl red\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -5//-1 -4//-1 -1//-1 \\\n -2//1\ng second\nusemtl blue\nf 1 2 3\nl 1 2\n";
 
 /// A document with everything that is read.
-fn document() -> serde_json::Value {
+fn document() -> Value {
     let mut document = triangle();
-    document["cameras"] =
-        serde_json::json!([{ "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1 } }]);
-    document["extensions"] =
-        serde_json::json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "range": 9 }] } });
-    let light = serde_json::json!({ "KHR_lights_punctual": { "light": 0 } });
+    document["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1 } }]);
+    document["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "range": 9 },
+        { "type": "spot", "spot": { "innerConeAngle": 0.25, "outerConeAngle": 0.75 } }, { "type": "directional" }] } });
+    let light = |index: u32| json!({ "KHR_lights_punctual": { "light": index } });
     let nodes = document["nodes"].as_array_mut().unwrap();
-    nodes[0]["children"] = serde_json::json!([1, 2]);
-    nodes[0]["matrix"] = serde_json::json!([2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1]);
-    nodes.push(serde_json::json!({ "camera": 0, "rotation": [0, 0, 0, 1], "scale": [1, 2, 1] }));
-    nodes.push(serde_json::json!({ "mesh": 0, "extensions": light, "translation": [0, 5, 0] }));
+    nodes[0]["children"] = json!([1, 2, 3]);
+    nodes[0]["matrix"] = json!([2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1]);
+    nodes.push(json!({ "camera": 0, "rotation": [0, 0, 0, 1], "scale": [1, 2, 1], "extensions": light(1) }));
+    nodes.push(json!({ "mesh": 0, "extensions": light(0), "translation": [0, 5, 0] }));
+    nodes.push(json!({ "extensions": light(2), "extras": { "castShadow": false } }));
     document
+}
+
+/// A document of two skinned, morphed and masked triangles and two instances of them, in quantised and
+/// sparse accessors.
+fn posed() -> Value {
+    let mut document = triangle();
+    document["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
+    document["materials"][0]["alphaMode"] = json!("MASK");
+    paint(
+        &mut document,
+        json!({ "uri": data_uri(&png(2, &[0, 255])) }),
+        [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+    );
+    document["textures"][0]["sampler"] = json!(0);
+    document["samplers"] = json!([{ "wrapS": 33071, "wrapT": 33648 }]);
+    document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
+        json!({ "KHR_texture_transform": { "offset": [0.5, 0], "rotation": 0.5, "scale": [2, 2] } });
+    let positions = accessor(&mut document, &[0, 0, 0, 9, 0, 0, 0, 9, 0], (5120, "VEC3"), 3);
+    replace(&mut document, positions, &[0, 2], &[1, 0, 0, 0, 7, 0]);
+    let target = float_accessor(&mut document, "VEC3", &[0.0, 0.0, 1.0].repeat(3));
+    let joints = accessor(&mut document, &[0, 1, 0, 0].repeat(3), (5121, "VEC4"), 3);
+    let weights = normalized(&mut document, &[155, 100, 0, 0].repeat(3), (5121, "VEC4"), 3);
+    let moves = float_accessor(&mut document, "VEC3", &[1.0, 0.0, 0.0, 0.0, 5.0, 0.0]);
+    for (name, index) in [("POSITION", positions), ("JOINTS_0", joints), ("WEIGHTS_0", weights)] {
+        attributes(&mut document)[name] = json!(index);
+    }
+    document["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": target }]);
+    document["meshes"][0]["weights"] = json!([0.5]);
+    document["skins"] = json!([{ "joints": [0, 1] }]);
+    document["nodes"] = json!([
+        { "mesh": 0, "skin": 0, "extras": { "receiveShadow": false } },
+        { "mesh": 0, "weights": [2], "translation": [0, 0, 1],
+          "extensions": { "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": moves } } } },
+    ]);
+    document["scenes"][0]["nodes"] = json!([0, 1]);
+    document
+}
+
+#[test]
+fn what_is_changed_is_valid_before() {
+    let folder = Folder::new();
+    for (document, triangles) in [(document(), 2), (posed(), 3)] {
+        let scene = formats::load(&folder.write("some.gltf", document.to_string())).unwrap();
+        assert_eq!(scene.triangles.len(), triangles);
+    }
 }
 
 proptest! {
@@ -110,6 +164,27 @@ proptest! {
     #[test]
     fn of_gltf(changes in prop::collection::vec(change(), 1..6)) {
         check("some.gltf", document().to_string().into(), &changes, |_| ());
+    }
+
+    #[test]
+    fn of_gltf_in_poses(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.gltf", posed().to_string().into(), &changes, |_| ());
+    }
+
+    /// Changes in the numbers and not in the words around them; the image is the third part of them.
+    #[test]
+    fn of_what_gltf_buffers_hold(changes in prop::collection::vec(change(), 1..4), buffer in any::<usize>()) {
+        let mut document = posed();
+        let buffers = document["buffers"].as_array().unwrap().len();
+        let place = match buffer % (buffers + buffers / 2) {
+            buffer if buffer < buffers => &mut document["buffers"][buffer],
+            _ => &mut document["images"][0],
+        };
+        let uri = place["uri"].as_str().unwrap();
+        let mut bytes = STANDARD.decode(uri.split_once(',').unwrap().1).unwrap();
+        changes.iter().for_each(|change| change.apply(&mut bytes));
+        place["uri"] = json!(data_uri(&bytes));
+        check("some.gltf", document.to_string().into(), &[], |_| ());
     }
 
     #[test]

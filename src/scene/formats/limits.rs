@@ -30,6 +30,21 @@ pub const MAX_JSON_OBJECTS: usize = 1 << 21;
 /// The most values in glTF's JSON, counted by what separates them.
 pub const MAX_JSON_VALUES: usize = 1 << 26;
 
+/// The most elements of a glTF accessor without bytes of its own, all zero but for what is sparse.
+pub const MAX_ZEROS: u64 = 1 << 22;
+
+/// The most joints of all skins that a glTF scene shows.
+pub const MAX_JOINTS: usize = 1 << 20;
+
+/// The most times that a morph target or a joint moves a vertex, over all instances.
+pub const MAX_MOVES: u64 = 1 << 28;
+
+/// The most texels of one image; each takes up to eight bytes while it is read, whatever the file's size.
+pub const MAX_IMAGE_TEXELS: u64 = 1 << 26;
+
+/// The most texels of all masks that a scene reads; each takes a bit for good.
+pub const MAX_ALL_TEXELS: u64 = 1 << 28;
+
 /// The most `f` lines of an OBJ file; the shortest becomes a record of a hundred bytes.
 pub const MAX_FACES: usize = 1 << 24;
 

@@ -1,28 +1,116 @@
 //! Accessors: every declared size checked against the bytes that are there, before any is read.
 
 use super::buffers::Buffers;
-use super::schema::{Accessor, Document};
-
-/// Bytes of one component by `componentType`, with the names that the specification uses.
-const COMPONENTS: [(u64, usize, &str); 6] = [
-    (5120, 1, "BYTE"),
-    (5121, 1, "UNSIGNED_BYTE"),
-    (5122, 2, "SHORT"),
-    (5123, 2, "UNSIGNED_SHORT"),
-    (5125, 4, "UNSIGNED_INT"),
-    (5126, 4, "FLOAT"),
-];
-const FLOAT: u64 = 5126;
+use super::components::Component;
+use super::schema::{Accessor, BufferView, Document};
+use super::sparse::Sparse;
+use crate::scene::formats::limits::MAX_ZEROS;
+use crate::scene::formats::text::printable;
+use glam::DVec3;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 /// The largest `byteStride` that the specification allows.
 const MAX_STRIDE: u64 = 252;
 
-/// Elements of an accessor whose bytes are all there.
+/// What an accessor is asked for; see [`Wanted::accepts`].
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Integers, one an element.
+    Indices,
+    /// Positions.
+    Positions,
+    /// Directions of length 1, and how much they change.
+    Normals,
+    /// How much a morph target moves positions.
+    Displacements,
+    /// Texture coordinates, and how much they change.
+    TextureCoordinates,
+    /// Three floats an element.
+    Vectors,
+    /// Quaternions.
+    Rotations,
+    /// Four indices of joints an element.
+    Joints,
+    /// Four weights of joints an element.
+    Weights,
+    /// Matrices of 4 by 4 floats.
+    Matrices,
+}
+
+impl Wanted {
+    /// The accessor's `type`, and how many numbers that is.
+    fn shape(self) -> (&'static str, usize) {
+        match self {
+            Wanted::Indices => ("SCALAR", 1),
+            Wanted::TextureCoordinates => ("VEC2", 2),
+            Wanted::Positions | Wanted::Normals | Wanted::Displacements | Wanted::Vectors => ("VEC3", 3),
+            Wanted::Rotations | Wanted::Joints | Wanted::Weights => ("VEC4", 4),
+            Wanted::Matrices => ("MAT4", 16),
+        }
+    }
+
+    /// Whether the specification allows a type of components here, with `KHR_mesh_quantization` or without.
+    fn accepts(self, component: Component, normalized: bool, quantized: bool) -> bool {
+        use Component::{Byte, Float, Short, UnsignedByte, UnsignedInt, UnsignedShort};
+        let signed = matches!(component, Byte | Short);
+        let unsigned = matches!(component, UnsignedByte | UnsignedShort);
+        match self {
+            Wanted::Indices => unsigned || component == UnsignedInt,
+            Wanted::Joints => unsigned,
+            Wanted::Vectors | Wanted::Matrices => component == Float,
+            Wanted::Rotations => component == Float || (signed && normalized),
+            Wanted::Weights => component == Float || (unsigned && normalized),
+            Wanted::Positions => component == Float || (quantized && (signed || unsigned)),
+            Wanted::Displacements => component == Float || (quantized && signed),
+            Wanted::Normals => component == Float || (quantized && signed && normalized),
+            Wanted::TextureCoordinates => {
+                component == Float || (unsigned && normalized) || (quantized && (signed || unsigned))
+            }
+        }
+    }
+
+    /// The components that are accepted, for messages.
+    fn components(self, quantized: bool) -> &'static str {
+        match self {
+            Wanted::Indices => "UNSIGNED_BYTE, UNSIGNED_SHORT or UNSIGNED_INT",
+            Wanted::Joints => "UNSIGNED_BYTE or UNSIGNED_SHORT",
+            Wanted::Weights => "FLOAT or normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
+            Wanted::Rotations => "FLOAT or normalized BYTE or SHORT",
+            Wanted::TextureCoordinates if !quantized => "FLOAT or normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
+            Wanted::Positions | Wanted::TextureCoordinates if quantized => {
+                "FLOAT or integers of 8 or 16 bits"
+            }
+            Wanted::Displacements if quantized => "FLOAT, BYTE or SHORT",
+            Wanted::Normals if quantized => "FLOAT or normalized BYTE or SHORT",
+            _ => "FLOAT",
+        }
+    }
+}
+
+/// Elements that stand in memory one after the other, at one distance.
 #[derive(Clone, Copy)]
-pub(super) struct Elements<'a> {
+pub(super) struct Packed<'a> {
     bytes: &'a [u8],
     stride: usize,
     size: usize,
+}
+
+impl<'a> Packed<'a> {
+    pub(super) fn element(&self, index: usize) -> &'a [u8] {
+        let start = index * self.stride;
+        &self.bytes[start..start + self.size]
+    }
+}
+
+/// Elements of an accessor whose bytes are all there.
+#[derive(Clone, Copy)]
+pub(super) struct Elements<'a> {
+    /// `None` where all is zero that is not in `sparse`.
+    packed: Option<Packed<'a>>,
+    sparse: Option<Sparse<'a>>,
+    component: Component,
+    normalized: bool,
     count: usize,
 }
 
@@ -31,22 +119,172 @@ impl<'a> Elements<'a> {
         self.count
     }
 
-    fn element(&self, index: usize) -> &'a [u8] {
-        let start = index * self.stride;
-        &self.bytes[start..start + self.size]
+    fn bytes(&self, index: usize) -> &'a [u8] {
+        let replaced = self.sparse.and_then(|sparse| sparse.find(index));
+        replaced.or_else(|| self.packed.map(|packed| packed.element(index))).unwrap_or(&[])
     }
 
-    /// An element of three floats.
-    pub(super) fn vec3(&self, index: usize) -> [f32; 3] {
-        let bytes = self.element(index);
-        [0, 4, 8].map(|at| f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]))
+    /// The first numbers of an element.
+    pub(super) fn numbers<const N: usize>(&self, index: usize) -> [f64; N] {
+        let bytes = self.bytes(index);
+        std::array::from_fn(|lane| {
+            let number = self.component.decode(bytes.get(lane * self.component.size()..).unwrap_or(&[]));
+            if self.normalized { self.component.normalize(number) } else { number }
+        })
     }
 
-    /// An element of one unsigned integer of one, two or four bytes.
-    pub(super) fn unsigned(&self, index: usize) -> u32 {
-        let mut wide = [0; 4];
-        wide[..self.size].copy_from_slice(self.element(index));
-        u32::from_le_bytes(wide)
+    /// An element of three numbers.
+    pub(super) fn vec3(&self, index: usize) -> DVec3 {
+        DVec3::from_array(self.numbers(index))
+    }
+
+    /// The first integers of an element that are not normalised.
+    pub(super) fn integers<const N: usize>(&self, index: usize) -> [u32; N] {
+        // 32 bits of f64's 53; the components are unsigned.
+        self.numbers(index).map(|number| number as u32)
+    }
+}
+
+/// All accessors of a document.
+pub(super) struct Accessors<'a> {
+    document: &'a Document,
+    buffers: &'a Buffers<'a>,
+    quantized: bool,
+    /// Sparse accessors whose indices are in order.
+    looked_at: RefCell<BTreeSet<u64>>,
+}
+
+impl<'a> Accessors<'a> {
+    pub(super) fn new(document: &'a Document, buffers: &'a Buffers<'a>) -> Accessors<'a> {
+        let mut extensions = document.extensions_used.iter().chain(&document.extensions_required);
+        let quantized = extensions.any(|name| name == "KHR_mesh_quantization");
+        Accessors { document, buffers, quantized, looked_at: RefCell::default() }
+    }
+
+    /// Whether this is asked about an accessor for the first time.
+    pub(super) fn is_first_look(&self, index: u64) -> bool {
+        self.looked_at.borrow_mut().insert(index)
+    }
+
+    /// The elements of an accessor.
+    ///
+    /// # Errors
+    /// A line if there is no such accessor, its type is another, or bytes are missing.
+    pub(super) fn read(&self, index: u64, wanted: Wanted) -> Result<Elements<'a>, String> {
+        let accessor = find(self.document, index)?;
+        self.elements(index, accessor, wanted).map_err(|why| format!("accessor {index}: {why}"))
+    }
+
+    fn elements(&self, index: u64, accessor: &Accessor, wanted: Wanted) -> Result<Elements<'a>, String> {
+        let component = Component::from_code(accessor.component_type);
+        let normalized = accessor.normalized;
+        let (shape, lanes) = wanted.shape();
+        let accepted = |component: &Component| {
+            accessor.shape == shape && wanted.accepts(*component, normalized, self.quantized)
+        };
+        let Some(component) = component.filter(accepted) else {
+            let kind = component.map_or_else(|| accessor.component_type.to_string(), |c| c.name().into());
+            let normalized = if normalized { "normalized " } else { "" };
+            let found = printable(&accessor.shape);
+            let expected = wanted.components(self.quantized);
+            return Err(format!("expected {shape} of {expected}, found {found} of {normalized}{kind}"));
+        };
+        let size = component.size() * lanes;
+        let packed = match accessor.buffer_view {
+            Some(view) => Some(self.strided(view, accessor.byte_offset, accessor.count, size)?),
+            // Zeros take no byte of the file, so nothing else bounds them.
+            None if accessor.count > MAX_ZEROS => {
+                return Err(format!(
+                    "{} elements without a bufferView, expected at most {MAX_ZEROS}",
+                    accessor.count
+                ));
+            }
+            None => None,
+        };
+        let sparse = accessor.sparse.as_ref().map(|entry| {
+            Sparse::read(self, index, accessor, entry, size).map_err(|why| format!("sparse: {why}"))
+        });
+        Ok(Elements {
+            packed,
+            sparse: sparse.transpose()?,
+            component,
+            normalized: normalized && !matches!(wanted, Wanted::Indices | Wanted::Joints),
+            // They are in memory, or at most MAX_ZEROS.
+            count: accessor.count as usize,
+        })
+    }
+
+    /// Elements of a view at the view's own distance.
+    fn strided(&self, view: u64, offset: u64, count: u64, size: usize) -> Result<Packed<'a>, String> {
+        let stride = self.view(view)?.byte_stride.unwrap_or(size as u64);
+        if stride < size as u64 || stride > MAX_STRIDE {
+            return Err(format!("bufferView {view}: byteStride {stride}, expected {size} to {MAX_STRIDE}"));
+        }
+        // At most MAX_STRIDE.
+        self.within(view, offset, count, Packed { bytes: &[], stride: stride as usize, size })
+    }
+
+    /// Elements of a view one right after the other.
+    ///
+    /// # Errors
+    /// A line if the view or its buffer does not exist, says another distance, or holds fewer bytes.
+    pub(super) fn packed(
+        &self,
+        view: u64,
+        offset: u64,
+        count: u64,
+        size: usize,
+    ) -> Result<Packed<'a>, String> {
+        match self.view(view)?.byte_stride {
+            None => self.within(view, offset, count, Packed { bytes: &[], stride: size, size }),
+            Some(stride) => Err(format!("bufferView {view}: expected no byteStride, found {stride}")),
+        }
+    }
+
+    fn view(&self, index: u64) -> Result<&'a BufferView, String> {
+        let views = &self.document.buffer_views;
+        let view = usize::try_from(index).ok().and_then(|i| views.get(i));
+        view.ok_or_else(|| format!("bufferView {index} of {}", views.len()))
+    }
+
+    /// Fills in the bytes. All arithmetic is checked: offsets and counts go up to 2^64.
+    fn within(&self, view: u64, offset: u64, count: u64, layout: Packed<'a>) -> Result<Packed<'a>, String> {
+        let (stride, size) = (layout.stride as u64, layout.size as u64);
+        let length = self.view(view)?.byte_length;
+        let used = match count {
+            0 => Some(0),
+            count => (count - 1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size)),
+        };
+        let end = used.and_then(|used| used.checked_add(offset));
+        if end.is_none_or(|end| end > length) {
+            return Err(format!(
+                "{count} elements of {size} bytes, {stride} apart, from byte {offset} on, exceed the {length} \
+                 bytes of bufferView {view}"
+            ));
+        }
+        // The view's bytes lie in memory, and the offset was just found to lie inside: the cast cannot cut.
+        Ok(Packed { bytes: &self.view_bytes(view)?[offset as usize..], ..layout })
+    }
+
+    /// All bytes of a view.
+    ///
+    /// # Errors
+    /// A line if the view or its buffer does not exist, or the buffer holds fewer bytes.
+    pub(super) fn view_bytes(&self, index: u64) -> Result<&'a [u8], String> {
+        let view = self.view(index)?;
+        let buffer = self.buffers.bytes(view.buffer).map_err(|why| format!("bufferView {index}: {why}"))?;
+        let end = view.byte_offset.checked_add(view.byte_length);
+        match end.filter(|&end| end <= buffer.len() as u64) {
+            // Both lie inside what is in memory.
+            Some(end) => Ok(&buffer[view.byte_offset as usize..end as usize]),
+            None => Err(format!(
+                "bufferView {index}: {} bytes from byte {} on exceed the {} of buffer {}",
+                view.byte_length,
+                view.byte_offset,
+                buffer.len(),
+                view.buffer
+            )),
+        }
     }
 }
 
@@ -54,88 +292,4 @@ impl<'a> Elements<'a> {
 pub(super) fn find(document: &Document, index: u64) -> Result<&Accessor, String> {
     let accessor = usize::try_from(index).ok().and_then(|i| document.accessors.get(i));
     accessor.ok_or_else(|| format!("accessor {index} of {}", document.accessors.len()))
-}
-
-/// An accessor of three floats an element.
-pub(super) fn vectors<'a>(
-    document: &Document,
-    buffers: &'a Buffers,
-    index: u64,
-) -> Result<Elements<'a>, String> {
-    let expected = |a: &Accessor| a.component_type == FLOAT && a.shape == "VEC3";
-    checked(document, buffers, index, expected, "VEC3 of FLOAT")
-}
-
-/// An accessor of one unsigned integer an element.
-pub(super) fn scalars<'a>(
-    document: &Document,
-    buffers: &'a Buffers,
-    index: u64,
-) -> Result<Elements<'a>, String> {
-    let expected = |a: &Accessor| matches!(a.component_type, 5121 | 5123 | 5125) && a.shape == "SCALAR";
-    checked(document, buffers, index, expected, "SCALAR of UNSIGNED_BYTE, UNSIGNED_SHORT or UNSIGNED_INT")
-}
-
-fn checked<'a>(
-    document: &Document,
-    buffers: &'a Buffers,
-    index: u64,
-    is_expected: impl Fn(&Accessor) -> bool,
-    expected: &str,
-) -> Result<Elements<'a>, String> {
-    let accessor = find(document, index)?;
-    let at = |why: String| format!("accessor {index}: {why}");
-    if accessor.sparse.is_some() {
-        return Err(at("sparse accessors are not supported".into()));
-    }
-    let component = COMPONENTS.iter().find(|(code, ..)| *code == accessor.component_type);
-    let (true, Some(&(_, component_size, _))) = (is_expected(accessor), component) else {
-        let kind = component.map_or_else(|| accessor.component_type.to_string(), |(.., name)| (*name).into());
-        let shape = crate::scene::formats::text::printable(&accessor.shape);
-        return Err(at(format!("expected {expected}, found {shape} of {kind}")));
-    };
-    let Some(view_index) = accessor.buffer_view else {
-        return Err(at("expected a bufferView".into()));
-    };
-    let views = &document.buffer_views;
-    let view = usize::try_from(view_index).ok().and_then(|i| views.get(i));
-    let view = view.ok_or_else(|| at(format!("bufferView {view_index} of {}", views.len())))?;
-
-    let size = component_size as u64 * if accessor.shape == "VEC3" { 3 } else { 1 };
-    let stride = view.byte_stride.unwrap_or(size);
-    if stride < size || stride > MAX_STRIDE {
-        let why = format!("bufferView {view_index}: byteStride {stride}, expected {size} to {MAX_STRIDE}");
-        return Err(at(why));
-    }
-    // All arithmetic is checked: offsets and counts go up to 2^64.
-    let used = match accessor.count {
-        0 => Some(0),
-        count => (count - 1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size)),
-    };
-    let end = used.and_then(|used| used.checked_add(accessor.byte_offset));
-    if end.is_none_or(|end| end > view.byte_length) {
-        return Err(at(format!(
-            "{} elements of {size} bytes, {stride} apart, from byte {} on, exceed the {} bytes of bufferView {view_index}",
-            accessor.count, accessor.byte_offset, view.byte_length
-        )));
-    }
-    let buffer = buffers.bytes(view.buffer).map_err(|why| at(format!("bufferView {view_index}: {why}")))?;
-    let view_end = view.byte_offset.checked_add(view.byte_length);
-    if view_end.is_none_or(|end| end > buffer.len() as u64) {
-        return Err(at(format!(
-            "bufferView {view_index}: {} bytes from byte {} on exceed the {} of buffer {}",
-            view.byte_length,
-            view.byte_offset,
-            buffer.len(),
-            view.buffer
-        )));
-    }
-    // Both ends were just found to lie inside the buffer, which lies in memory: the casts cannot cut.
-    let start = (view.byte_offset + accessor.byte_offset) as usize;
-    Ok(Elements {
-        bytes: &buffer[start..(view.byte_offset + view.byte_length) as usize],
-        stride: stride as usize,
-        size: size as usize,
-        count: accessor.count as usize,
-    })
 }

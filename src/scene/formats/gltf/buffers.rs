@@ -1,4 +1,4 @@
-//! The bytes that buffers name: the binary chunk, data URIs, and files in the scene's folder.
+//! The bytes that buffers and images name: the binary chunk, data URIs, and files in the scene's folder.
 
 use super::schema::Buffer;
 use crate::scene::formats::confined::Room;
@@ -54,6 +54,14 @@ impl<'a> Buffers<'a> {
                 _ => Err("it has no URI, and no binary chunk belongs to it".into()),
             };
         };
+        self.resource(uri)
+    }
+
+    /// What a URI names: the bytes that it holds itself, or a file in the scene's folder.
+    ///
+    /// # Errors
+    /// A line if it is a data URI that is none, or a file that may not or cannot be read.
+    pub(super) fn resource(&self, uri: &str) -> Result<Cow<'static, [u8]>, String> {
         if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
             return decode_data_uri(&uri[5..]).map(Cow::Owned);
         }

@@ -1,31 +1,14 @@
 //! Metallic-roughness materials as Lambert and Phong terms.
 
 use super::schema::MaterialEntry;
-use crate::scene::Material;
 use crate::scene::formats::text::printable;
+use crate::scene::{Coverage, Material};
 
-/// What materials ask for and is not drawn, counted in materials.
-#[derive(Default)]
-pub(super) struct NotDrawn {
-    pub(super) textures: usize,
-    pub(super) masked: usize,
-    pub(super) blended: usize,
-    pub(super) emissive: usize,
-}
-
-impl NotDrawn {
-    pub(super) fn note(&mut self, entry: &MaterialEntry) {
-        let surface = &entry.pbr_metallic_roughness;
-        self.textures += usize::from(
-            surface.base_color_texture.is_some()
-                || surface.metallic_roughness_texture.is_some()
-                || entry.normal_texture.is_some()
-                || entry.occlusion_texture.is_some()
-                || entry.emissive_texture.is_some(),
-        );
-        self.masked += usize::from(entry.alpha_mode.as_deref() == Some("MASK"));
-        self.blended += usize::from(entry.alpha_mode.as_deref() == Some("BLEND"));
-        self.emissive += usize::from(entry.emissive_factor.is_some_and(|factor| factor != [0.0; 3]));
+/// `material 3`, with its name if it has one.
+pub(super) fn describe(entry: &MaterialEntry, index: usize) -> String {
+    match &entry.name {
+        Some(name) => format!("material {index} `{}`", printable(name)),
+        None => format!("material {index}"),
     }
 }
 
@@ -38,7 +21,7 @@ const DIELECTRIC: f64 = 0.04;
 /// black. The exponent is `2 / roughness^4 - 2`, the one whose lobe is as wide as that of the specification's
 /// microfacets. The weight is the reflectance seen head-on times `(exponent + 8) / 8`, which keeps the energy
 /// of the lobe while it narrows, and at most 1.
-pub(super) fn convert(entry: &MaterialEntry, index: usize) -> Material {
+pub(super) fn convert(entry: &MaterialEntry, index: usize, coverage: Coverage) -> Material {
     let surface = &entry.pbr_metallic_roughness;
     let [r, g, b, _] = surface.base_color_factor.unwrap_or([1.0; 4]);
     let base = [r, g, b].map(|channel| channel.clamp(0.0, 1.0));
@@ -54,6 +37,7 @@ pub(super) fn convert(entry: &MaterialEntry, index: usize) -> Material {
         diffuse: base.map(|channel| channel as f32),
         specular: base.map(weight),
         shininess: shininess as f32,
+        coverage,
     }
 }
 
@@ -62,7 +46,7 @@ mod tests {
     use super::*;
 
     fn material(json: &str) -> Material {
-        convert(&serde_json::from_str(json).unwrap(), 3)
+        convert(&serde_json::from_str(json).unwrap(), 3, Coverage::Solid)
     }
 
     #[test]

@@ -120,22 +120,36 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, N
 /// The transform of a node in its parent.
 fn local(node: &Node) -> Result<DAffine3, String> {
     if let Some(m) = &node.matrix {
-        // Products of matrices that an exporter rounds come out a little off.
-        let off = [m[3], m[7], m[11], m[15] - 1.0].iter().any(|entry| entry.abs() > 1e-6);
-        if off {
-            return Err("expected 0 0 0 1 as the last row of its matrix".into());
-        }
-        let column = |at: usize| DVec3::new(m[at], m[at + 1], m[at + 2]);
-        let linear = DMat3::from_cols(column(0), column(4), column(8));
-        return Ok(DAffine3 { matrix3: linear, translation: column(12) });
+        return affine(m).ok_or_else(|| "expected 0 0 0 1 as the last row of its matrix".into());
     }
-    let scale = node.scale.map_or(DVec3::ONE, DVec3::from);
-    let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+    compose(node.translation, node.rotation, node.scale)
+}
+
+/// A matrix, column by column, whose last row is 0 0 0 1.
+pub(super) fn affine(m: &[f64; 16]) -> Option<DAffine3> {
+    // Products of matrices that an exporter rounds come out a little off.
+    let fits = [m[3], m[7], m[11], m[15] - 1.0].iter().all(|entry| entry.abs() <= 1e-6);
+    let column = |at: usize| DVec3::new(m[at], m[at + 1], m[at + 2]);
+    let linear = DMat3::from_cols(column(0), column(4), column(8));
+    fits.then_some(DAffine3 { matrix3: linear, translation: column(12) })
+}
+
+/// A transform of its parts, each of which may be missing: first the scale, then the rotation.
+///
+/// # Errors
+/// A line if the rotation is not of unit length, or near it.
+pub(super) fn compose(
+    translation: Option<[f64; 3]>,
+    rotation: Option<[f64; 4]>,
+    scale: Option<[f64; 3]>,
+) -> Result<DAffine3, String> {
+    let scale = scale.map_or(DVec3::ONE, DVec3::from);
+    let rotation = DQuat::from_array(rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
     let length = rotation.length();
     // Files round the four numbers, so the length is made exact; one that is far off is no rotation.
     if !(0.5..=2.0).contains(&length) {
         return Err(format!("expected a unit quaternion as its rotation, found one of length {length}"));
     }
-    let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);
+    let translation = translation.map_or(DVec3::ZERO, DVec3::from);
     Ok(DAffine3::from_scale_rotation_translation(scale, rotation / length, translation))
 }

@@ -1,11 +1,13 @@
 //! Primitives of meshes: read once, placed as often as nodes show them.
 
-use super::accessors::{self, Elements};
-use super::buffers::Buffers;
+use super::accessors::{self, Accessors, Elements, Wanted};
+use super::alpha::Masking;
 use super::schema::{Document, Primitive};
+use super::textures::Placement;
 use crate::scene::SmoothNormals;
 use crate::scene::formats::shading_normals;
-use glam::{DAffine3, DMat3, Vec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
+use std::collections::BTreeMap;
 
 /// How a primitive strings its vertices together.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -43,64 +45,111 @@ pub(super) fn declared_triangles(document: &Document, primitive: &Primitive) -> 
     })
 }
 
+/// Vertices of a primitive, with their numbers as the file means them, in f64.
+#[derive(Clone)]
+pub(super) struct Shape {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) normals: Option<Vec<DVec3>>,
+    /// Of the set that the alpha mask of the material takes, if it has one.
+    pub(super) coordinates: Option<Vec<DVec2>>,
+}
+
 /// A primitive in its mesh's space, with the vertices that its triangles use and no others.
 pub(super) struct Geometry {
-    positions: Vec<Vec3>,
-    normals: Option<Vec<Vec3>>,
-    triangles: Vec<[u32; 3]>,
+    /// Before morph targets and skins.
+    pub(super) shape: Shape,
+    /// Which vertices of the file those are, in increasing order.
+    pub(super) used: Vec<u32>,
+    /// How many vertices the file has.
+    pub(super) vertices: usize,
+    pub(super) triangles: Vec<[u32; 3]>,
     /// Corners that were left over after the last whole triangle.
     pub(super) left_over: usize,
 }
 
-/// Reads a primitive that is not [`Mode::Thin`].
+/// An attribute that must have an element for each vertex.
+///
+/// # Errors
+/// A line if it is there and has not, or its type does not fit.
+pub(super) fn attribute<'a>(
+    accessors: &Accessors<'a>,
+    attributes: &BTreeMap<String, u64>,
+    name: &str,
+    wanted: Wanted,
+    vertices: usize,
+) -> Result<Option<Elements<'a>>, String> {
+    let Some(&index) = attributes.get(name) else { return Ok(None) };
+    let elements = accessors.read(index, wanted).map_err(|why| format!("{name}: {why}"))?;
+    match elements.len() == vertices {
+        true => Ok(Some(elements)),
+        false => Err(format!("{name}: {} elements, and POSITION has {vertices}", elements.len())),
+    }
+}
+
+/// Reads a primitive that is not [`Mode::Thin`], with the texture coordinates that its mask needs.
 ///
 /// # Errors
 /// A line for every size, type or index that does not fit.
 pub(super) fn read(
     document: &Document,
-    buffers: &Buffers,
+    accessors: &Accessors,
     primitive: &Primitive,
+    masking: Option<&Masking>,
 ) -> Result<Geometry, String> {
-    let attribute = |name: &str| -> Result<Option<Elements>, String> {
-        let Some(&index) = primitive.attributes.get(name) else { return Ok(None) };
-        accessors::vectors(document, buffers, index).map(Some).map_err(|why| format!("{name}: {why}"))
-    };
-    let positions = attribute("POSITION")?.ok_or("expected an attribute POSITION")?;
-    let normals = attribute("NORMAL")?;
-    if normals.is_some_and(|normals| normals.len() != positions.len()) {
-        let found = normals.map_or(0, |normals| normals.len());
-        return Err(format!("NORMAL: {found} elements, and POSITION has {}", positions.len()));
+    let attributes = &primitive.attributes;
+    let &index = attributes.get("POSITION").ok_or("expected an attribute POSITION")?;
+    if primitive.extensions.draco.is_some()
+        && accessors::find(document, index).is_ok_and(|a| a.buffer_view.is_none() && a.sparse.is_none())
+    {
+        return Err("it is compressed by `KHR_draco_mesh_compression`, which is not supported".into());
     }
-    let (corners, left_over) = corners(document, buffers, primitive, positions.len())?;
+    let positions = accessors.read(index, Wanted::Positions).map_err(|why| format!("POSITION: {why}"))?;
+    let vertices = positions.len();
+    let normals = attribute(accessors, attributes, "NORMAL", Wanted::Normals, vertices)?;
+    let coordinates = match masking {
+        Some(masking) => {
+            let name = masking.placement.attribute();
+            let found = attribute(accessors, attributes, &name, Wanted::TextureCoordinates, vertices)?;
+            Some(found.ok_or_else(|| format!("expected an attribute {name} for its material's alpha"))?)
+        }
+        None => None,
+    };
+    let (corners, left_over) = corners(accessors, primitive, vertices)?;
     // Only what is used is kept, so memory is bounded by the triangles however many vertices there are.
     let mut used: Vec<u32> = corners.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
-    let renumber = |vertex: u32| match used.len() == positions.len() {
+    let renumber = |vertex: u32| match used.len() == vertices {
         true => vertex,
         false => used.partition_point(|&other| other < vertex) as u32,
     };
-    let gather = |elements: &Elements| used.iter().map(|&i| Vec3::from(elements.vec3(i as usize))).collect();
+    let gather = |elements: &Elements| used.iter().map(|&i| elements.vec3(i as usize)).collect();
+    let pairs =
+        |elements: &Elements| used.iter().map(|&i| DVec2::from_array(elements.numbers(i as usize))).collect();
     Ok(Geometry {
-        positions: gather(&positions),
-        normals: normals.as_ref().map(gather),
+        shape: Shape {
+            positions: gather(&positions),
+            normals: normals.as_ref().map(gather),
+            coordinates: coordinates.as_ref().map(pairs),
+        },
         triangles: corners.iter().map(|triangle| triangle.map(renumber)).collect(),
+        used,
+        vertices,
         left_over,
     })
 }
 
 /// The triangles as indices below `count`, and how many corners were left over.
 fn corners(
-    document: &Document,
-    buffers: &Buffers,
+    accessors: &Accessors,
     primitive: &Primitive,
     count: usize,
 ) -> Result<(Vec<[u32; 3]>, usize), String> {
     let sequence: Vec<u32> = match primitive.indices {
         Some(index) => {
             let located = |why: String| format!("indices: {why}");
-            let indices = accessors::scalars(document, buffers, index).map_err(located)?;
-            let sequence: Vec<u32> = (0..indices.len()).map(|i| indices.unsigned(i)).collect();
+            let indices = accessors.read(index, Wanted::Indices).map_err(located)?;
+            let sequence: Vec<u32> = (0..indices.len()).map(|i| indices.integers::<1>(i)[0]).collect();
             if let Some(position) = sequence.iter().position(|&vertex| vertex as usize >= count) {
                 let why = format!(
                     "accessor {index}: element {position} is vertex {} of {count}",
@@ -143,21 +192,21 @@ pub(super) struct Instance {
     pub(super) normals_replaced: usize,
 }
 
-impl Geometry {
-    /// Places the primitive. Each coordinate is computed in f64 and rounded once.
-    pub(super) fn place(&self, world: &DAffine3) -> Instance {
+impl Shape {
+    /// Places the shape with its triangles. Each coordinate is computed in f64 and rounded once.
+    pub(super) fn place(&self, triangles: &[[u32; 3]], world: &DAffine3) -> Instance {
         let positions: Vec<Vec3> =
-            self.positions.iter().map(|p| world.transform_point3(p.as_dvec3()).as_vec3()).collect();
+            self.positions.iter().map(|&p| world.transform_point3(p).as_vec3()).collect();
         // A mirrored solid would be inside out: its triangles are turned round, as the specification asks.
         let mirrored = world.matrix3.determinant() < 0.0;
-        let triangles = match mirrored {
-            true => self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
-            false => self.triangles.clone(),
+        let triangles: Vec<[u32; 3]> = match mirrored {
+            true => triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+            false => triangles.to_vec(),
         };
         let mut normals_replaced = 0;
         let normals = self.normals.as_ref().map(|normals| {
-            let cofactors = cofactors(&world.matrix3) * if mirrored { -1.0 } else { 1.0 };
-            let turn = |n: &Vec3| shading_normals::unit(cofactors * n.as_dvec3()).unwrap_or(Vec3::ZERO);
+            let matrix = for_normals(&world.matrix3);
+            let turn = |&n: &DVec3| shading_normals::unit(matrix * n).unwrap_or(Vec3::ZERO);
             let mut normals =
                 SmoothNormals { normals: normals.iter().map(turn).collect(), corners: triangles.clone() };
             normals_replaced = shading_normals::repair(&mut normals, &positions, &triangles);
@@ -165,9 +214,25 @@ impl Geometry {
         });
         Instance { positions, triangles, normals, normals_replaced }
     }
+
+    /// Where the vertices lie on the texture, rounded once.
+    ///
+    /// # Errors
+    /// A line if that is nowhere.
+    pub(super) fn on_texture(&self, placement: &Placement) -> Result<Option<Vec<[f32; 2]>>, String> {
+        let Some(coordinates) = &self.coordinates else { return Ok(None) };
+        let placed: Vec<[f32; 2]> = coordinates.iter().map(|&c| placement.apply(c)).collect();
+        match placed.iter().flatten().all(|coordinate| coordinate.is_finite()) {
+            true => Ok(Some(placed)),
+            false => Err(format!("{}: a coordinate on the texture is not finite", placement.attribute())),
+        }
+    }
 }
 
-/// The inverse transpose times the determinant, which needs no division.
-fn cofactors(m: &DMat3) -> DMat3 {
-    DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis))
+/// The matrix that turns normals where another turns positions: the inverse transpose but for a factor above
+/// 0, which needs no division.
+pub(super) fn for_normals(m: &DMat3) -> DMat3 {
+    let cofactors =
+        DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    cofactors * if m.determinant() < 0.0 { -1.0 } else { 1.0 }
 }

@@ -5,6 +5,7 @@
 //! panic on a `POSITION` that does not exist while they validate. Nothing here has been checked beyond its
 //! type.
 
+use super::extras::Extras;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
@@ -29,6 +30,14 @@ pub(super) struct Document {
     pub(super) buffers: Vec<Buffer>,
     #[serde(default)]
     pub(super) materials: Vec<MaterialEntry>,
+    #[serde(default)]
+    pub(super) textures: Vec<TextureEntry>,
+    #[serde(default)]
+    pub(super) images: Vec<ImageEntry>,
+    #[serde(default)]
+    pub(super) samplers: Vec<SamplerEntry>,
+    #[serde(default)]
+    pub(super) skins: Vec<SkinEntry>,
     #[serde(default)]
     pub(super) cameras: Vec<CameraEntry>,
     #[serde(default)]
@@ -68,6 +77,16 @@ pub(super) struct LightEntry {
     pub(super) color: Option<[f64; 3]>,
     pub(super) intensity: Option<f64>,
     pub(super) range: Option<f64>,
+    #[serde(default)]
+    pub(super) spot: SpotCone,
+}
+
+/// Half the opening angles of a spot light, in radians.
+#[derive(Deserialize, Default)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SpotCone {
+    pub(super) inner_cone_angle: Option<f64>,
+    pub(super) outer_cone_angle: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -88,8 +107,11 @@ pub(super) struct Node {
     pub(super) translation: Option<[f64; 3]>,
     pub(super) rotation: Option<[f64; 4]>,
     pub(super) scale: Option<[f64; 3]>,
+    pub(super) weights: Option<Vec<f64>>,
     #[serde(default)]
     pub(super) extensions: NodeExtensions,
+    #[serde(default)]
+    pub(super) extras: Extras,
 }
 
 #[derive(Deserialize, Default)]
@@ -97,7 +119,13 @@ pub(super) struct NodeExtensions {
     #[serde(rename = "KHR_lights_punctual")]
     pub(super) light: Option<LightReference>,
     #[serde(rename = "EXT_mesh_gpu_instancing")]
-    pub(super) instancing: Option<IgnoredAny>,
+    pub(super) instancing: Option<Instancing>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Instancing {
+    #[serde(default)]
+    pub(super) attributes: BTreeMap<String, u64>,
 }
 
 #[derive(Deserialize)]
@@ -109,6 +137,9 @@ pub(super) struct LightReference {
 pub(super) struct Mesh {
     pub(super) name: Option<String>,
     pub(super) primitives: Vec<Primitive>,
+    pub(super) weights: Option<Vec<f64>>,
+    #[serde(default)]
+    pub(super) extras: Extras,
 }
 
 #[derive(Deserialize)]
@@ -119,7 +150,22 @@ pub(super) struct Primitive {
     pub(super) material: Option<u64>,
     pub(super) mode: Option<u64>,
     #[serde(default)]
-    pub(super) targets: Vec<IgnoredAny>,
+    pub(super) targets: Vec<BTreeMap<String, u64>>,
+    #[serde(default)]
+    pub(super) extensions: PrimitiveExtensions,
+}
+
+#[derive(Deserialize, Default)]
+pub(super) struct PrimitiveExtensions {
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    pub(super) draco: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SkinEntry {
+    pub(super) inverse_bind_matrices: Option<u64>,
+    pub(super) joints: Vec<u64>,
 }
 
 #[derive(Deserialize)]
@@ -132,7 +178,33 @@ pub(super) struct Accessor {
     pub(super) count: u64,
     #[serde(rename = "type")]
     pub(super) shape: String,
-    pub(super) sparse: Option<IgnoredAny>,
+    #[serde(default)]
+    pub(super) normalized: bool,
+    pub(super) sparse: Option<SparseEntry>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct SparseEntry {
+    pub(super) count: u64,
+    pub(super) indices: SparseIndices,
+    pub(super) values: SparseValues,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseIndices {
+    pub(super) buffer_view: u64,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u64,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseValues {
+    pub(super) buffer_view: u64,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
 }
 
 #[derive(Deserialize)]
@@ -163,16 +235,64 @@ pub(super) struct MaterialEntry {
     pub(super) emissive_texture: Option<IgnoredAny>,
     pub(super) emissive_factor: Option<[f64; 3]>,
     pub(super) alpha_mode: Option<String>,
+    pub(super) alpha_cutoff: Option<f64>,
 }
 
 #[derive(Deserialize, Default)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct MetallicRoughness {
     pub(super) base_color_factor: Option<[f64; 4]>,
-    pub(super) base_color_texture: Option<IgnoredAny>,
+    pub(super) base_color_texture: Option<TextureReference>,
     pub(super) metallic_factor: Option<f64>,
     pub(super) roughness_factor: Option<f64>,
     pub(super) metallic_roughness_texture: Option<IgnoredAny>,
+}
+
+/// Where a material takes a texture from.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TextureReference {
+    pub(super) index: u64,
+    #[serde(default)]
+    pub(super) tex_coord: u64,
+    #[serde(default)]
+    pub(super) extensions: TextureExtensions,
+}
+
+#[derive(Deserialize, Default)]
+pub(super) struct TextureExtensions {
+    #[serde(rename = "KHR_texture_transform")]
+    pub(super) transform: Option<TextureTransform>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TextureTransform {
+    pub(super) offset: Option<[f64; 2]>,
+    /// In radians.
+    pub(super) rotation: Option<f64>,
+    pub(super) scale: Option<[f64; 2]>,
+    pub(super) tex_coord: Option<u64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct TextureEntry {
+    pub(super) source: Option<u64>,
+    pub(super) sampler: Option<u64>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct ImageEntry {
+    pub(super) uri: Option<String>,
+    pub(super) buffer_view: Option<u64>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SamplerEntry {
+    pub(super) wrap_s: Option<u64>,
+    pub(super) wrap_t: Option<u64>,
 }
 
 #[derive(Deserialize)]

@@ -2,8 +2,8 @@
 
 use super::lines::{Lines, Verdict};
 use crate::error::{Error, Place, Result};
-use crate::scene::Material;
 use crate::scene::formats::text::printable;
+use crate::scene::{Coverage, Material};
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
@@ -108,5 +108,6 @@ pub(super) fn convert(material: &tobj::Material) -> Material {
         diffuse: material.diffuse.map_or(plain.diffuse, unit),
         specular: material.specular.filter(|_| !matt).map_or(plain.specular, unit),
         shininess: material.shininess.map_or(plain.shininess, |n| n.clamp(1.0, 1000.0)),
+        coverage: Coverage::Solid,
     }
 }
