@@ -3,6 +3,7 @@
 use super::expansion::{self, Expansion};
 use super::planes::{OrientedPlanes, oriented};
 use super::position::{ExactPosition, HomogeneousPoint};
+use super::texel::{Place, TexelAxis, Weights};
 use super::{LightPosition, LightSpace, ROUNDOFF, Sign};
 use glam::{DVec3, Vec3};
 use std::cell::OnceCell;
@@ -53,13 +54,8 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         let corners = corners.map(Vec3::as_dvec3);
         let planes = OrientedPlanes::new(&self.space, corners);
         let mut undecided = false;
-        for (i, edge) in planes.edges.iter().enumerate() {
-            // Relative to a point of the plane: the light, or a corner of the edge.
-            let p = match self.space.light() {
-                LightPosition::At(light) => self.rounded - light.as_dvec3(),
-                LightPosition::Towards(_) => self.rounded - corners[i],
-            };
-            let (value, bound) = edge.dot(p, self.difference_error(p));
+        for i in 0..3 {
+            let (value, bound) = self.edge_in_f64(&planes, corners, i);
             match Sign::certain(value, bound) {
                 Some(Sign::Negative) => return Some(false),
                 Some(_) => {}
@@ -75,28 +71,59 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         }
     }
 
+    /// What the plane through the light and edge i of some corners, in the order of positive orientation, says
+    /// of the point, in f64 and with the bound of the error. Both ends of the segment give the same.
+    fn edge_in_f64(&self, planes: &OrientedPlanes, corners: [DVec3; 3], i: usize) -> (f64, f64) {
+        // Relative to a point of the plane: the light, or a corner of the edge.
+        let p = match self.space.light() {
+            LightPosition::At(light) => self.rounded - light.as_dvec3(),
+            LightPosition::Towards(_) => self.rounded - corners[i],
+        };
+        planes.edges[i].dot(p, self.difference_error(p))
+    }
+
+    /// The same exactly.
+    fn exact_edge(&self, corners: [Vec3; 3], i: usize) -> Expansion {
+        let p = self.exact();
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        match self.space.light() {
+            LightPosition::At(light) => {
+                let (u, v) = (expansion::difference(a, light), expansion::difference(b, light));
+                expansion::dot(&expansion::cross(&u, &v), &p.xyz)
+            }
+            LightPosition::Towards(direction) => {
+                let direction = direction.to_array().map(Expansion::from);
+                let normal = expansion::cross(&expansion::difference(b, a), &direction);
+                expansion::dot(&normal, &self.from_corner(a))
+            }
+        }
+    }
+
+    /// The exact point relative to a corner, times its denominator.
+    fn from_corner(&self, corner: Vec3) -> [Expansion; 3] {
+        let (p, u) = (self.exact(), expansion::difference(corner, self.space.origin()));
+        std::array::from_fn(|k| &p.xyz[k] - &(&u[k] * &p.w))
+    }
+
     /// Corners are in the order of positive orientation.
     fn blocks_exactly(&self, corners: [Vec3; 3]) -> bool {
-        let p = self.exact();
-        let u = corners.map(|corner| expansion::difference(corner, self.space.origin()));
-        let from_corner =
-            |i: usize| -> [Expansion; 3] { std::array::from_fn(|k| &p.xyz[k] - &(&u[i][k] * &p.w)) };
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let value = match self.space.light() {
-                LightPosition::At(_) => expansion::dot(&expansion::cross(&u[i], &u[j]), &p.xyz),
-                LightPosition::Towards(direction) => {
-                    let edge = expansion::difference(corners[j], corners[i]);
-                    let normal = expansion::cross(&edge, &direction.to_array().map(Expansion::from));
-                    expansion::dot(&normal, &from_corner(i))
-                }
-            };
-            if value.sign() == Sign::Negative {
-                return false;
-            }
+        if (0..3).any(|i| self.exact_edge(corners, i).sign() == Sign::Negative) {
+            return false;
         }
         let [a, b, c] = corners;
         let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
-        expansion::dot(&normal, &from_corner(0)).sign() == Sign::Positive
+        expansion::dot(&normal, &self.from_corner(a)).sign() == Sign::Positive
+    }
+
+    /// The texels of an image that the segment passes through a triangle that blocks it.
+    pub fn texels(&self, corners: [Vec3; 3], axes: &[TexelAxis; 2]) -> [Place; 2] {
+        let oriented = oriented(self.space.light(), corners).expect("a triangle that blocks");
+        let axes = axes.map(|axis| axis.for_corners(oriented[1] == corners[1]));
+        let in_f64 = oriented.map(Vec3::as_dvec3);
+        let planes = OrientedPlanes::new(&self.space, in_f64);
+        // Each edge function is the weight of the corner across.
+        let rounded = [1, 2, 0].map(|edge| self.edge_in_f64(&planes, in_f64, edge));
+        Weights { rounded, exact: || [1, 2, 0].map(|edge| self.exact_edge(oriented, edge)) }.texels(&axes)
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::expansion::{self, Expansion};
 use super::planes::{OrientedPlanes, oriented};
+use super::texel::{Place, TexelAxis, Weights};
 use super::{ROUNDOFF, Sign};
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
@@ -46,7 +47,7 @@ impl RayTriangle {
         let d = direction.as_dvec3();
         for (k, edge) in self.planes.edges.iter().enumerate() {
             let (value, bound) = edge.dot(d, DVec3::ZERO);
-            let sign = Sign::certain(value, bound).unwrap_or_else(|| self.exact_edge_sign(k, direction));
+            let sign = Sign::certain(value, bound).unwrap_or_else(|| self.exact_edge(k, direction).sign());
             if sign == Sign::Negative {
                 return None;
             }
@@ -63,9 +64,18 @@ impl RayTriangle {
         Some(RayParameter { value, error })
     }
 
-    fn exact_edge_sign(&self, k: usize, direction: Vec3) -> Sign {
+    fn exact_edge(&self, k: usize, direction: Vec3) -> Expansion {
         let u = |i: usize| expansion::difference(self.oriented[i % 3], self.origin);
-        expansion::dot(&expansion::cross(&u(k), &u(k + 1)), &direction.to_array().map(Expansion::from)).sign()
+        expansion::dot(&expansion::cross(&u(k), &u(k + 1)), &direction.to_array().map(Expansion::from))
+    }
+
+    /// The texels of an image that a ray that hits shows; `corners` are in the order of the image's axes.
+    pub fn texels(&self, corners: [Vec3; 3], direction: Vec3, axes: &[TexelAxis; 2]) -> [Place; 2] {
+        let axes = axes.map(|axis| axis.for_corners(self.oriented[1] == corners[1]));
+        // Each edge function is the weight of the corner across.
+        let edges = [1, 2, 0];
+        let rounded = edges.map(|k| self.planes.edges[k].dot(direction.as_dvec3(), DVec3::ZERO));
+        Weights { rounded, exact: || edges.map(|k| self.exact_edge(k, direction)) }.texels(&axes)
     }
 
     /// Exact h and N . d, both positive for a direction that hits.

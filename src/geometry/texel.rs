@@ -19,6 +19,16 @@ pub struct TexelAxis {
     pub size: u32,
 }
 
+impl TexelAxis {
+    /// The axis for corners in the order that makes an orientation positive: as they are, or the last two
+    /// exchanged.
+    pub(super) fn for_corners(self, as_they_are: bool) -> TexelAxis {
+        let [a, b, c] = self.coordinates;
+        let coordinates = if as_they_are { [a, b, c] } else { [a, c, b] };
+        TexelAxis { coordinates, ..self }
+    }
+}
+
 /// The three weights of a point, not negative and not all zero.
 pub struct Weights<F> {
     /// Values, and the bounds of their errors.

@@ -1,5 +1,9 @@
 //! Alpha masks: where a surface is there, and where it is a hole.
 
+use crate::geometry::texel::{Place, TexelAxis};
+use dashu_int::IBig;
+use dashu_int::ops::RemEuclid;
+
 /// Where a surface is there, texel by texel. Holes are decided when a scene is loaded; nothing is there by half.
 ///
 /// Texture coordinates `(u, v)` are glTF's: `(0, 0)` is the upper left corner of the image and `(1, 1)` the
@@ -47,6 +51,27 @@ impl Wrap {
     }
 }
 
+impl Wrap {
+    /// The same for a place of any size.
+    pub(crate) fn repeated(self, place: &IBig, size: u32) -> u32 {
+        let period = 2 * i64::from(size);
+        match i64::try_from(place) {
+            Ok(place) => self.texel(place, size),
+            Err(_) if self == Wrap::ClampToEdge => {
+                if *place < IBig::ZERO {
+                    0
+                } else {
+                    size - 1
+                }
+            }
+            Err(_) => {
+                let rest = IBig::from(place.rem_euclid(IBig::from(period)));
+                self.texel(i64::try_from(&rest).expect("below the period"), size)
+            }
+        }
+    }
+}
+
 impl AlphaMask {
     /// A mask by a function of column and row, which is asked row by row.
     ///
@@ -89,6 +114,35 @@ impl AlphaMask {
     /// How many texels are opaque.
     pub fn opaque_texels(&self) -> u64 {
         self.opaque.iter().map(|word| u64::from(word.count_ones())).sum()
+    }
+}
+
+/// A triangle with holes: its mask, and where its corners lie in it.
+#[derive(Debug, Clone, Copy)]
+pub struct MaskedTriangle<'a> {
+    /// Where it is there.
+    pub mask: &'a AlphaMask,
+    /// `[u, v]` of the three corners.
+    pub coordinates: [[f32; 2]; 3],
+}
+
+impl MaskedTriangle<'_> {
+    /// The mask's axes over the triangle, u and v.
+    pub fn axes(&self) -> [TexelAxis; 2] {
+        let axis = |i: usize, size: u32| TexelAxis { coordinates: self.coordinates.map(|c| c[i]), size };
+        [axis(0, self.mask.width), axis(1, self.mask.height)]
+    }
+
+    /// Whether it is there at a place along each axis.
+    pub fn is_there(&self, [u, v]: [Place; 2]) -> bool {
+        let texel = |wrap: Wrap, place: Place, size: u32| match place {
+            Place::Near(place) => wrap.texel(place, size),
+            Place::Far { beyond: true, .. } if wrap == Wrap::ClampToEdge => size - 1,
+            Place::Far { beyond: false, .. } if wrap == Wrap::ClampToEdge => 0,
+            Place::Far { repeated, .. } => wrap.texel(repeated, size),
+        };
+        let (mask, [across, down]) = (self.mask, self.mask.wrap);
+        mask.is_opaque(texel(across, u, mask.width), texel(down, v, mask.height))
     }
 }
 

@@ -12,7 +12,7 @@ mod framing;
 mod light;
 mod material;
 
-pub use alpha::{AlphaMask, TextureCoordinates, Wrap};
+pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
 pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
@@ -130,6 +130,19 @@ impl Scene {
     pub fn material(&self, primitive: PrimitiveIndex) -> &Material {
         let object = self.triangles[primitive as usize].object;
         &self.materials[self.objects[object as usize].material as usize]
+    }
+
+    /// The mask of a triangle that has holes.
+    pub fn masked(&self, primitive: PrimitiveIndex) -> Option<MaskedTriangle<'_>> {
+        if self.alpha_masks.is_empty() {
+            return None;
+        }
+        let object = self.object(primitive);
+        let Coverage::Masked(mask) = self.materials[object.material as usize].coverage else { return None };
+        let texture = object.texture_coordinates.as_ref().expect("checked when the object was added");
+        let corners = texture.corners[(primitive - object.first) as usize];
+        let coordinates = corners.map(|corner| texture.coordinates[corner as usize]);
+        Some(MaskedTriangle { mask: &self.alpha_masks[mask as usize], coordinates })
     }
 
     /// A hash of everything that shadows depend on: corners of all triangles, object by object, and

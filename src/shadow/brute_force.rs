@@ -1,11 +1,11 @@
 //! Every triangle for every query: the classical tracer of the 2004 paper, with the native predicates.
 
-use super::{Basis, BuildInput, Casters, Counters, ShadowTester, TesterEntry};
+use super::{Basis, BuildInput, Casters, Counters, ShadowTester, TesterEntry, is_there};
 use crate::error::Result;
 use crate::geometry::LightPoint;
 use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
 use crate::geometry::occlusion::{PreciseQuery, Stage};
-use crate::scene::Scene;
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 
 /// `brute-force` in the registry.
@@ -30,6 +30,20 @@ impl<'a> BruteForce<'a> {
         BruteForce { scene: input.scene, casters, instruction_set }
     }
 
+    /// Those of the lanes that a triangle blocks where it is not a hole of its mask.
+    fn there(&self, blocked: u16, primitive: PrimitiveIndex, points: &[SurfacePoint]) -> u16 {
+        if self.scene.masked(primitive).is_none() {
+            return blocked;
+        }
+        let is_blocked = |point: &SurfacePoint| {
+            let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
+            point.primitive() != Some(primitive) && is_there(self.scene, primitive, &query)
+        };
+        let lanes =
+            points.iter().enumerate().filter(|&(i, point)| blocked >> i & 1 == 1 && is_blocked(point));
+        lanes.fold(0, |lanes, (i, _)| lanes | 1 << i)
+    }
+
     fn answer_batch(&self, points: &[SurfacePoint], answers: &mut [bool], counters: &mut Counters) {
         let relative: Vec<LightPoint> =
             points.iter().map(|p| LightPoint::new(&self.casters.space, p.position)).collect();
@@ -40,7 +54,7 @@ impl<'a> BruteForce<'a> {
             counters.tests += (stop.index + 1 - start) as u64 * u64::from(live.count_ones());
             start = stop.index + 1;
             let primitive = self.casters.primitives[stop.index];
-            let mut blocked = stop.blocked;
+            let mut blocked = self.there(stop.blocked, primitive, points);
             for (i, point) in points.iter().enumerate().filter(|(i, _)| stop.undecided >> i & 1 == 1) {
                 // The base surface cannot block its own point (row 15 of the notes on the 1986 paper).
                 if point.primitive() == Some(primitive) {
@@ -51,7 +65,7 @@ impl<'a> BruteForce<'a> {
                     PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
                 let (blocks, stage) = query.blocks(self.scene.corners(primitive));
                 counters.exact += u64::from(stage == Stage::Exact);
-                blocked |= u16::from(blocks) << i;
+                blocked |= u16::from(blocks && is_there(self.scene, primitive, &query)) << i;
             }
             live &= !blocked;
             if live == 0 {

@@ -21,6 +21,9 @@ pub use scene_index::{Casters, SceneIndex};
 pub use traced_ray::TracedRay;
 
 use crate::error::Result;
+use crate::geometry::ExactPosition;
+use crate::geometry::occlusion::PreciseQuery;
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 
 /// Answers shadow queries of one light.
@@ -45,6 +48,18 @@ pub trait ShadowTester: Send + Sync {
     fn statistics(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
+}
+
+/// Whether a triangle that blocks a segment is there where that passes through it, and not a hole of its
+/// mask.
+fn is_there<F: Fn() -> ExactPosition>(
+    scene: &Scene,
+    primitive: PrimitiveIndex,
+    query: &PreciseQuery<F>,
+) -> bool {
+    scene
+        .masked(primitive)
+        .is_none_or(|masked| masked.is_there(query.texels(scene.corners(primitive), &masked.axes())))
 }
 
 /// Where queries may come from; testers that know leave out what nobody can ask for.

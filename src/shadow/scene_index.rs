@@ -9,7 +9,8 @@ use std::collections::HashSet;
 
 /// Which triangles are cast, and which objects are convex.
 pub struct SceneIndex {
-    /// Triangles that block light: of objects that cast, exact duplicates once (TRUTH, "Surface points and
+    /// Triangles that block light: of objects that cast, exact duplicates once unless they have
+    /// holes (TRUTH, "Surface points and
     /// rays").
     pub casting: Vec<PrimitiveIndex>,
     /// Lowest and highest corner of a box around them; both zero if there are none.
@@ -23,7 +24,10 @@ impl SceneIndex {
     pub fn new(scene: &Scene) -> SceneIndex {
         let mut seen = HashSet::with_capacity(scene.triangles.len());
         let casting: Vec<_> = (0..scene.triangles.len() as u32)
-            .filter(|&t| scene.object(t).shadowing.casts && seen.insert(key(scene, t)))
+            .filter(|&t| {
+                let mut is_new = || scene.masked(t).is_some() || seen.insert(key(scene, t));
+                scene.object(t).shadowing.casts && is_new()
+            })
             .collect();
         let corners = || casting.iter().flat_map(|&t| scene.corners(t));
         let first = corners().next().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! Classical ray tracing: every ray against every triangle, as REALITY's reference tracer does (2004
 //! paper, section IV). It is what the t-buffer must equal, pixel by pixel.
 
-use super::hit::{FirstHits, Hit, keep_nearer};
+use super::hit::{FirstHits, Hit, is_there, keep_nearer};
 use crate::geometry::ray_triangle::RayTriangle;
 use crate::scene::{Camera, ImageSize, Scene};
 use rayon::prelude::*;
@@ -19,7 +19,9 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
             let direction = camera.direction(&raster, x, y);
             let mut nearest: Option<Hit> = None;
             for (primitive, triangle) in &prepared {
-                if let Some(t) = triangle.hit(direction) {
+                if let Some(t) = triangle.hit(direction)
+                    && is_there(scene, *primitive, triangle, direction)
+                {
                     keep_nearer(&mut nearest, (*primitive, t), scene, camera.origin, direction);
                 }
             }

@@ -19,6 +19,18 @@ pub struct FirstHits {
 /// One buffer item of the 2004 paper: the object and its t.
 pub(super) type Hit = (PrimitiveIndex, RayParameter);
 
+/// Whether a triangle is there where a ray hits it, and not a hole of its mask.
+pub(super) fn is_there(
+    scene: &Scene,
+    primitive: PrimitiveIndex,
+    triangle: &RayTriangle,
+    direction: Vec3,
+) -> bool {
+    scene.masked(primitive).is_none_or(|masked| {
+        masked.is_there(triangle.texels(scene.corners(primitive), direction, &masked.axes()))
+    })
+}
+
 /// Keeps the nearer of the stored and the new hit in `stored`.
 ///
 /// Equal exact t is decided by the sorted coordinates of the corners, then by the content of the material

@@ -6,7 +6,7 @@
 //! rays within that rounding of an edge.
 
 use super::classical;
-use super::hit::{FirstHits, Hit, keep_nearer};
+use super::hit::{FirstHits, Hit, is_there, keep_nearer};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::ray_triangle::RayTriangle;
 use crate::scene::{Camera, ImageSize, Object, PrimitiveIndex, Raster, Scene};
@@ -86,7 +86,9 @@ fn fill(
         let line = &mut items[(row - first_row) as usize * width..][..width];
         for column in left..=right {
             let direction = camera.direction(raster, column, row);
-            if let Some(t) = cast.triangle.hit(direction) {
+            if let Some(t) = cast.triangle.hit(direction)
+                && is_there(scene, cast.primitive, &cast.triangle, direction)
+            {
                 let item = &mut line[column as usize];
                 keep_nearer(item, (cast.primitive, t), scene, camera.origin, direction);
             }

@@ -14,7 +14,7 @@ pub struct Scale {
 }
 
 /// Sign, mantissa and exponent of a finite f32: (-1)^sign mantissa 2^exponent, the mantissa odd or zero.
-fn decode(value: f32) -> (i64, i32) {
+pub fn decode(value: f32) -> (i64, i32) {
     let bits = value.to_bits();
     let biased = (bits >> 23 & 0xff) as i32;
     let fraction = i64::from(bits & 0x007f_ffff);
@@ -198,9 +198,14 @@ impl LitTriangle {
     }
 }
 
-/// The side of a plane, given by normal and value, that a point is on: -1, 0 or 1.
-pub fn side((normal, value): &(IntegerVector, IBig), point: &RelativePoint) -> i32 {
-    sign(&(dot(normal, &point.xyz) - value * &point.w))
+/// What a plane, given by normal and value, says of a point: 0 on it.
+pub fn side_value((normal, value): &(IntegerVector, IBig), point: &RelativePoint) -> IBig {
+    dot(normal, &point.xyz) - value * &point.w
+}
+
+/// The side of a plane that a point is on: -1, 0 or 1.
+pub fn side(plane: &(IntegerVector, IBig), point: &RelativePoint) -> i32 {
+    sign(&side_value(plane, point))
 }
 
 /// Whether a float is at most numerator / denominator, exactly; the denominator is positive. Infinities are

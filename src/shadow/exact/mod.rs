@@ -7,6 +7,7 @@
 mod hierarchy;
 mod integer;
 mod interval;
+mod mask;
 pub mod plain;
 mod touching;
 mod traced;
@@ -21,6 +22,7 @@ use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::{PointSource, SurfacePoint};
 use glam::Vec3;
 use hierarchy::{Hierarchy, Visit};
+use integer::{IntegerLight, LitTriangle, RelativePoint, Scale};
 use interval::{Box3, Decided, cross, dot, minus};
 use rayon::prelude::*;
 
@@ -115,6 +117,19 @@ impl<'a> Arbiter<'a> {
         self.scene.corners(self.triangles[casting as usize])
     }
 
+    /// A triangle that is met in a hole of its mask is missed.
+    fn unless_a_hole(&self, meeting: Meeting, casting: u32, position: &ExactPosition) -> Meeting {
+        let is_through = matches!(meeting, Meeting::Interior | Meeting::Boundary(_));
+        let masked = self.scene.masked(self.triangles[casting as usize]).filter(|_| is_through);
+        let Some(masked) = masked else { return meeting };
+        let corners = self.corners(casting);
+        let scale = integer::scale_of(position, self.light).finer(Scale::of(corners));
+        let light = IntegerLight::new(self.light, scale);
+        let point = RelativePoint::new(position, &light, scale);
+        let triangle = LitTriangle::new(&light, corners, scale).expect("a triangle that is met");
+        if mask::is_there(&masked, &triangle, &point) { meeting } else { Meeting::Misses }
+    }
+
     /// Every triangle that casts and that the segment of a point meets, but for those in the receiver's own
     /// plane, in the order of their indices.
     pub fn meetings(&self, point: &SurfacePoint) -> Vec<(PrimitiveIndex, Meeting)> {
@@ -124,7 +139,7 @@ impl<'a> Arbiter<'a> {
         let mut found = Vec::new();
         self.hierarchy.walk(self.light, &absolute, |t| {
             let corners = self.corners(t);
-            let meeting = integer::meet(self.light, corners, &position);
+            let meeting = self.unless_a_hole(integer::meet(self.light, corners, &position), t, &position);
             let is_own_plane = || receiver.is_some_and(|r| integer::is_coplanar(r, corners));
             if meeting != Meeting::Misses && !(meeting == Meeting::EndsOn && is_own_plane()) {
                 found.push((self.triangles[t as usize], meeting));
@@ -157,6 +172,7 @@ impl<'a> Arbiter<'a> {
             let meeting = self.planes[t as usize]
                 .meet(&relative)
                 .unwrap_or_else(|| integer::meet(self.light, corners, &position));
+            let meeting = self.unless_a_hole(meeting, t, &position);
             match meeting {
                 Meeting::Misses => {}
                 Meeting::Interior => {

@@ -2,8 +2,9 @@
 
 use super::Occlusion;
 use super::integer::{IntegerLight, LitTriangle, RelativePoint, Scale, scale_of, scale_of_light, side};
+use super::mask;
 use crate::geometry::LightPosition;
-use crate::scene::Scene;
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 
 /// All triangles of a scene as exact planes relative to one light, in one scale.
@@ -11,7 +12,7 @@ pub struct PlainTest<'a> {
     scene: &'a Scene,
     light: IntegerLight,
     scale: Scale,
-    triangles: Vec<LitTriangle>,
+    triangles: Vec<(PrimitiveIndex, LitTriangle)>,
 }
 
 impl<'a> PlainTest<'a> {
@@ -24,14 +25,19 @@ impl<'a> PlainTest<'a> {
             .map(|p| scale_of(&p.exact(scene), light))
             .fold(Scale::of(corners).finer(scale_of_light(light)), Scale::finer);
         let light = IntegerLight::new(light, scale);
-        let triangles = casting().filter_map(|t| LitTriangle::new(&light, scene.corners(t), scale)).collect();
+        let lit = |t: u32| Some((t, LitTriangle::new(&light, scene.corners(t), scale)?));
+        let triangles = casting().filter_map(lit).collect();
         PlainTest { scene, light, scale, triangles }
     }
 
     /// Whether any triangle blocks the open segment from the point to the light.
     pub fn decide(&self, point: &SurfacePoint) -> Occlusion {
         let p = RelativePoint::new(&point.exact(self.scene), &self.light, self.scale);
-        let blocks = |t: &LitTriangle| t.edges.iter().all(|edge| side(edge, &p) >= 0) && side(&t.own, &p) > 0;
+        let blocks = |(primitive, t): &(PrimitiveIndex, LitTriangle)| {
+            t.edges.iter().all(|edge| side(edge, &p) >= 0)
+                && side(&t.own, &p) > 0
+                && self.scene.masked(*primitive).is_none_or(|masked| mask::is_there(&masked, t, &p))
+        };
         if self.triangles.iter().any(blocks) { Occlusion::Occluded } else { Occlusion::Lit }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::hierarchy::Visit;
 use super::integer::{IntegerLight, LitTriangle, RelativePoint, Scale, at_most, dot, scale_of, side};
-use super::{Arbiter, interval};
+use super::{Arbiter, interval, mask};
 use crate::geometry::{ExactPosition, LightPosition};
+use crate::scene::MaskedTriangle;
 use crate::shadow::TracedRay;
 use glam::Vec3;
 
@@ -24,7 +25,8 @@ impl Arbiter<'_> {
         let towards = LightPosition::Towards(ray.direction);
         self.hierarchy.walk(towards, &interval::point(ray.origin), |casting| {
             if ray.excluded != Some(self.triangles[casting as usize]) {
-                blocked = meets(ray, span, self.corners(casting));
+                let masked = self.scene.masked(self.triangles[casting as usize]);
+                blocked = meets(ray, span, self.corners(casting), masked.as_ref());
             }
             if blocked { Visit::Stop } else { Visit::Continue }
         });
@@ -32,7 +34,7 @@ impl Arbiter<'_> {
     }
 }
 
-fn meets(ray: &TracedRay, span: Span, corners: [Vec3; 3]) -> bool {
+fn meets(ray: &TracedRay, span: Span, corners: [Vec3; 3], masked: Option<&MaskedTriangle>) -> bool {
     let position = ExactPosition::Bare(ray.origin);
     // One scale for points and direction, so that t is a quotient without a unit.
     let scale = scale_of(&position, LightPosition::Towards(ray.direction))
@@ -56,7 +58,7 @@ fn meets(ray: &TracedRay, span: Span, corners: [Vec3; 3]) -> bool {
             (below(0.0, &numerator, &denominator), !at_most(ray.t_light, &numerator, &denominator))
         }
     };
-    from_near && to_far
+    from_near && to_far && masked.is_none_or(|masked| mask::is_there(masked, &triangle, &origin))
 }
 
 /// t < numerator / denominator.
@@ -85,7 +87,7 @@ mod tests {
 
     #[test]
     fn both_ends_of_what_is_traced_count_and_one_ulp_decides() {
-        let met = |t_near, t_far| meets(&ray(t_near, t_far), Span::Traced, TRIANGLE);
+        let met = |t_near, t_far| meets(&ray(t_near, t_far), Span::Traced, TRIANGLE, None);
         assert!(met(0.0, 1.0) && met(0.5, 1.0) && met(0.0, 0.5) && met(0.5, f32::INFINITY));
         assert!(!met(0.5f32.next_up(), 1.0) && !met(0.0, 0.5f32.next_down()));
     }
@@ -93,7 +95,7 @@ mod tests {
     #[test]
     fn the_ends_of_the_whole_segment_do_not_count() {
         let met = |origin: Vec3, t_light| {
-            meets(&TracedRay { origin, t_light, ..ray(0.9, 0.1) }, Span::Whole, TRIANGLE)
+            meets(&TracedRay { origin, t_light, ..ray(0.9, 0.1) }, Span::Whole, TRIANGLE, None)
         };
         assert!(met(Vec3::ZERO, 1.0) && met(Vec3::ZERO, f32::INFINITY));
         assert!(!met(Vec3::ZERO, 0.5) && met(Vec3::ZERO, 0.5f32.next_up()));
@@ -104,10 +106,15 @@ mod tests {
     #[test]
     fn edges_belong_to_the_triangle_and_planes_along_the_ray_do_not_block() {
         let beside = |x: f32| {
-            meets(&TracedRay { origin: Vec3::new(x, 0.0, 0.0), ..ray(0.0, 1.0) }, Span::Traced, TRIANGLE)
+            meets(
+                &TracedRay { origin: Vec3::new(x, 0.0, 0.0), ..ray(0.0, 1.0) },
+                Span::Traced,
+                TRIANGLE,
+                None,
+            )
         };
         assert!(beside(-1.0) && !beside((-1.0f32).next_down()));
         let edge_on = [Vec3::ZERO, Vec3::Z, Vec3::Y];
-        assert!(!meets(&ray(0.0, 1.0), Span::Traced, edge_on));
+        assert!(!meets(&ray(0.0, 1.0), Span::Traced, edge_on, None));
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct ConvexObjects {
 }
 
 impl ConvexObjects {
-    /// An object counts only if all of its triangles are cast for it: a face that was merged with another
+    /// An object counts only if it has no holes and all of its triangles are cast for it: a face that was merged with another
     /// object's would be missing from its depth.
     pub fn new(input: &BuildInput, casters: &Casters) -> ConvexObjects {
         let scene = input.scene;
@@ -34,7 +34,10 @@ impl ConvexObjects {
             let convexity = input.index.convexity[object as usize].as_ref()?;
             let light = orientation(input.light, scene.corners(primitive));
             let outside = convexity.inner_side[(primitive - first) as usize] * light == Sign::Negative;
-            let whole = convexity.surface == Surface::Closed && cast[object as usize] == count;
+            // One with holes lets light through.
+            let whole = scene.masked(primitive).is_none()
+                && convexity.surface == Surface::Closed
+                && cast[object as usize] == count;
             (whole && outside).then_some(object)
         };
         let objects: Vec<_> = casters.primitives.iter().map(object_before).collect();

@@ -18,7 +18,9 @@ mod tests;
 
 pub use audit::Audit;
 
-use super::{Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry};
+use super::{
+    Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry, is_there,
+};
 use crate::error::{Error, Result};
 use crate::geometry::occlusion::{PreciseQuery, Stage};
 use crate::geometry::{ExactPosition, Filtered, LightPoint};
@@ -216,7 +218,7 @@ impl<'a> LightBuffer<'a> {
                     blocks
                 }
             };
-            if blocks {
+            if blocks && is_there(self.scene, primitive, query) {
                 return true;
             }
         }
