@@ -78,14 +78,14 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(&args.view);
+    let seen = view.look();
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
     let mut report = Validation {
         scene: view.scene.name.clone(),
-        width: args.view.size.width,
-        height: args.view.size.height,
+        width: view.size.width,
+        height: view.size.height,
         version: env!("CARGO_PKG_VERSION"),
         threads,
         embree: embree_facts(threads, args.run.embree_epsilon, messages)?,
