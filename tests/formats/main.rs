@@ -3,7 +3,11 @@
 mod demo_scenes;
 mod fixtures;
 mod gltf_files;
+mod nff_files;
 mod obj_files;
+mod ply_files;
+mod ply_writer;
+mod same_scene;
 
 use lightbuffer::scene::Scene;
 

@@ -6,8 +6,12 @@ mod binary_files;
 mod fixtures;
 mod gltf_files;
 mod mutations;
+mod nff_files;
 mod obj_files;
 mod paths;
+mod ply_files;
+#[path = "../formats/ply_writer.rs"]
+mod ply_writer;
 
 use lightbuffer::scene::formats;
 use std::path::Path;
