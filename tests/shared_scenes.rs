@@ -1,7 +1,8 @@
-//! Scenes that are not part of this repository: a scanned mesh, a modelled one, and a whole glTF scene.
+//! Scenes that are not part of this repository: a scanned mesh, a modelled one, a whole glTF scene, and two of
+//! the Standard Procedural Databases.
 //!
 //! `make test-scenes SCENES=folder` runs these tests; the folder holds `meshes/stanford-bunny.obj`,
-//! `meshes/teapot.obj` and `meshes/balloon/scene.gltf`. They compare answers query by query, never totals.
+//! `meshes/teapot.obj`, `meshes/balloon/scene.gltf`, `spd/gears.nff` and `spd/tetra.nff`. They compare answers query by query, never totals.
 
 use lightbuffer::measure::{answer, timed};
 use lightbuffer::scene::{Camera, Framing, ImageSize, Scene, formats, frame};
@@ -42,6 +43,20 @@ const BALLOON: Subject = Subject {
     name: "meshes/balloon/scene.gltf",
     triangles: 35_698,
     size: size(640, 360),
+    testers: &["brute-force", "light-buffer", "embree", "embree-fast"],
+};
+
+const GEARS: Subject = Subject {
+    name: "spd/gears.nff",
+    triangles: 36_610,
+    size: size(160, 160),
+    testers: &["light-buffer", "embree", "embree-fast"],
+};
+
+const TETRA: Subject = Subject {
+    name: "spd/tetra.nff",
+    triangles: 4_096,
+    size: size(512, 512),
     testers: &["brute-force", "light-buffer", "embree", "embree-fast"],
 };
 
@@ -205,11 +220,42 @@ fn every_answer_on_the_balloon_is_true() {
 }
 
 #[test]
+fn every_answer_on_the_gears_is_true() {
+    judge_every_query(&GEARS);
+}
+
+#[test]
+fn every_answer_on_the_tetrahedra_is_true() {
+    judge_every_query(&TETRA);
+}
+
+/// Primitives of a scene as published, lights, and what they become: a polygon of n corners n - 2 triangles.
+fn compare_with_what_was_published(subject: &Subject, polygons: usize, lights: usize) {
+    let text = std::fs::read_to_string(path(subject.name)).unwrap();
+    let corners = |line: &str| line.strip_prefix("p ").map(|count| count.trim().parse::<usize>().unwrap());
+    let corners: Vec<usize> = text.lines().filter_map(corners).collect();
+    assert_eq!(corners.len(), polygons);
+    let scene = formats::load(&path(subject.name)).unwrap();
+    assert_eq!(scene.triangles.len(), corners.iter().map(|count| count - 2).sum::<usize>());
+    assert_eq!(scene.triangles.len(), subject.triangles);
+    assert_eq!((scene.dropped.degenerate, scene.dropped.non_finite), (0, 0));
+    assert_eq!((scene.lights.len(), scene.cameras[0].size), (lights, Some(size(512, 512))));
+    let crossed = scene.warnings.iter().any(|warning| warning.contains("cross themselves"));
+    assert!(!crossed, "{:?}", scene.warnings);
+}
+
+#[test]
+fn the_gears_and_the_tetrahedra_are_whole() {
+    compare_with_what_was_published(&GEARS, 9345, 5);
+    compare_with_what_was_published(&TETRA, 4096, 1);
+}
+
+#[test]
 fn masks_do_not_depend_on_resolution_or_threads() {
     [BUNNY, TEAPOT, BALLOON].iter().for_each(compare_masks);
 }
 
 #[test]
 fn the_t_buffer_sees_what_classical_ray_tracing_sees() {
-    [BUNNY, TEAPOT, BALLOON].iter().for_each(compare_first_hits);
+    [BUNNY, TEAPOT, BALLOON, GEARS, TETRA].iter().for_each(compare_first_hits);
 }

@@ -12,11 +12,11 @@ use std::path::PathBuf;
 /// What is looked at, and from where.
 #[derive(Debug, Args)]
 pub struct ViewOptions {
-    /// Scene file: .obj, .gltf or .glb
+    /// Scene file: .obj, .ply, .gltf, .glb or .nff
     pub scene: PathBuf,
-    /// Image size in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
-    pub size: ImageSize,
+    /// Image size in pixels [default: the camera's own if the scene says one, else 1280x720]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<ImageSize>,
     /// Camera by name [default: the scene's first]
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
@@ -138,13 +138,7 @@ const MOST_PIXELS: u64 = 1 << 28;
 fn parse_size(text: &str) -> std::result::Result<ImageSize, String> {
     let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     let (width, height): (u32, u32) = sides.ok_or("expected WIDTHxHEIGHT in pixels, such as 1920x1080")?;
-    if width == 0 || height == 0 {
-        return Err("both sides must be at least 1".into());
-    }
-    if u64::from(width) * u64::from(height) > MOST_PIXELS {
-        return Err(format!("more than {MOST_PIXELS} pixels"));
-    }
-    Ok(ImageSize { width, height })
+    ImageSize::checked(width, height, MOST_PIXELS)
 }
 
 fn parse_point(text: &str) -> std::result::Result<Vec3, String> {

@@ -78,7 +78,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(&args.view, args.run.memory_limit())?;
+    let seen = view.look(args.run.memory_limit())?;
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();
     let embree = if args.no_verdict {
@@ -177,8 +177,8 @@ fn write(
     };
     let facts = Facts {
         scene: view.scene.name.clone(),
-        width: args.view.size.width,
-        height: args.view.size.height,
+        width: view.size.width,
+        height: view.size.height,
         shadow: args.shadow.clone(),
         lights: view.scene.lights.iter().zip(&runs).map(light_facts).collect(),
     };

@@ -50,7 +50,7 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
     let view = View::load(&args.view, &lights, messages)?;
     let light =
         choose_light(&view.scene.lights, args.lights.iter().filter_map(LightArgument::name).next_back())?;
-    let seen = view.look(&args.view, args.run.memory_limit())?;
+    let seen = view.look(args.run.memory_limit())?;
     let size = seen.hits.size;
     let [x, y] = args.pixel;
     if x >= size.width || y >= size.height {

@@ -78,14 +78,14 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(&args.view, args.run.memory_limit())?;
+    let seen = view.look(args.run.memory_limit())?;
     let index = SceneIndex::new(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
     let mut report = Validation {
         scene: view.scene.name.clone(),
-        width: args.view.size.width,
-        height: args.view.size.height,
+        width: view.size.width,
+        height: view.size.height,
         version: env!("CARGO_PKG_VERSION"),
         threads,
         embree: embree_facts(threads, args.run.embree_epsilon, messages)?,
@@ -101,7 +101,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let verdict = judge(&input, &queries, &fitting, &bars)?;
-        let mut entry = LightReport::new(&light.name, args.view.size.width, &queries, &verdict);
+        let mut entry = LightReport::new(&light.name, view.size.width, &queries, &verdict);
         if args.check_arbiter > 0 {
             bars.stage("arbiter against integers");
             let most = args.check_arbiter;

@@ -4,12 +4,15 @@ use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::memory::MemoryLimit;
-use crate::scene::{Camera, Falloff, Framing, Light, PointLight, Scene, formats, frame};
+use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
 use crate::shading::ShadedPoint;
 use crate::shadow::REGISTRY;
 use crate::shadow::facing::Sides;
 use crate::visibility::{FirstHits, SurfacePoint, VisibleSurfaces, t_buffer};
 use glam::Vec3;
+
+/// The size of an image where neither the options nor the camera say one.
+const USUAL_SIZE: ImageSize = ImageSize { width: 1280, height: 720 };
 
 /// A scene ready to be looked at.
 pub struct View {
@@ -17,6 +20,8 @@ pub struct View {
     pub scene: Scene,
     /// The camera that was chosen.
     pub camera: Camera,
+    /// Of the image: what the options say, else the camera, else [`USUAL_SIZE`].
+    pub size: ImageSize,
     /// What was added to the scene to make it visible.
     pub added: Vec<String>,
 }
@@ -44,23 +49,24 @@ impl View {
         }
         replace_lights(&mut scene, lights)?;
         let camera = choose_camera(&scene, options.camera.as_deref())?;
-        Ok(View { scene, camera, added })
+        let size = options.size.or(camera.size).unwrap_or(USUAL_SIZE);
+        Ok(View { scene, camera, size, added })
     }
 
     /// First hits by the t-buffer, the points behind them, and the camera's side of every triangle.
     ///
     /// # Errors
     /// If the image with the masks of all lights would need more memory than the limit.
-    pub fn look(&self, options: &ViewOptions, limit: MemoryLimit) -> Result<Seen> {
+    pub fn look(&self, limit: MemoryLimit) -> Result<Seen> {
         let lights = self.scene.lights.len() as u64;
         let what = format!(
             "an image of {}x{} pixels with {}",
-            options.size.width,
-            options.size.height,
+            self.size.width,
+            self.size.height,
             if lights == 1 { "a light".into() } else { format!("{lights} lights") }
         );
-        limit.check(what, options.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
-        let hits = t_buffer::first_hits(&self.scene, &self.camera, options.size);
+        limit.check(what, self.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
+        let hits = t_buffer::first_hits(&self.scene, &self.camera, self.size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
         let eye = Sides::of(&self.scene, self.camera.origin);
         Ok(Seen { hits, visible, eye })

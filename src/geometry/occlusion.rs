@@ -94,13 +94,13 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
             LightPosition::Towards(direction) => {
                 let direction = direction.to_array().map(Expansion::from);
                 let normal = expansion::cross(&expansion::difference(b, a), &direction);
-                expansion::dot(&normal, &self.from_corner(a))
+                expansion::dot(&normal, &self.beyond_corner(a))
             }
         }
     }
 
     /// The exact point relative to a corner, times its denominator.
-    fn from_corner(&self, corner: Vec3) -> [Expansion; 3] {
+    fn beyond_corner(&self, corner: Vec3) -> [Expansion; 3] {
         let (p, u) = (self.exact(), expansion::difference(corner, self.space.origin()));
         std::array::from_fn(|k| &p.xyz[k] - &(&u[k] * &p.w))
     }
@@ -112,7 +112,7 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         }
         let [a, b, c] = corners;
         let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
-        expansion::dot(&normal, &self.from_corner(a)).sign() == Sign::Positive
+        expansion::dot(&normal, &self.beyond_corner(a)).sign() == Sign::Positive
     }
 
     /// The texels of an image that the segment passes through a triangle that blocks it.

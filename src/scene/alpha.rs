@@ -111,6 +111,15 @@ impl AlphaMask {
         self.is_opaque(self.wrap[0].texel(column, self.width), self.wrap[1].texel(row, self.height))
     }
 
+    /// A hash of texels, size and wrapping.
+    pub(super) fn hash(&self) -> u64 {
+        let wrap = self.wrap.map(|wrap| wrap as u64);
+        let words = [u64::from(self.width), u64::from(self.height), wrap[0], wrap[1]].into_iter();
+        words.chain(self.opaque.iter().copied()).fold(0xcbf2_9ce4_8422_2325, |hash, word| {
+            (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29)
+        })
+    }
+
     /// How many texels are opaque.
     pub fn opaque_texels(&self) -> u64 {
         self.opaque.iter().map(|word| u64::from(word.count_ones())).sum()

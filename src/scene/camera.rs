@@ -12,6 +12,20 @@ pub struct ImageSize {
 }
 
 impl ImageSize {
+    /// A size of at least one pixel and at most so many.
+    ///
+    /// # Errors
+    /// A line that says which of the two it is.
+    pub fn checked(width: u32, height: u32, most_pixels: u64) -> Result<ImageSize, String> {
+        if width == 0 || height == 0 {
+            return Err("both sides must be at least 1".into());
+        }
+        if u64::from(width) * u64::from(height) > most_pixels {
+            return Err(format!("more than {most_pixels} pixels"));
+        }
+        Ok(ImageSize { width, height })
+    }
+
     /// Number of pixels.
     pub fn pixels(self) -> usize {
         self.width as usize * self.height as usize
@@ -33,6 +47,8 @@ pub struct Camera {
     pub up: Vec3,
     /// Tangent of half the vertical field of view.
     pub tan_half_height: f64,
+    /// The size of the image, if the scene file says one. Pixels are square whatever it is.
+    pub size: Option<ImageSize>,
 }
 
 impl Camera {
@@ -56,6 +72,7 @@ impl Camera {
             right: right.as_vec3(),
             up: right.cross(forward).as_vec3(),
             tan_half_height: libm::tan(vertical_degrees.to_radians() * 0.5),
+            size: None,
         }
     }
 

@@ -145,8 +145,8 @@ impl Scene {
         Some(MaskedTriangle { mask: &self.alpha_masks[mask as usize], coordinates })
     }
 
-    /// A hash of everything that shadows depend on: corners of all triangles, object by object, and
-    /// positions of lights. FNV-1a in 64 bits, the same on every platform.
+    /// A hash of everything that shadows depend on: corners of all triangles, object by object, positions and
+    /// cones of lights, holes, and parts in shadows. FNV-1a in 64 bits, the same on every platform.
     pub fn hash(&self) -> u64 {
         let corners = self.triangles.iter().flat_map(|t| {
             let corners = t.vertices.map(|v| self.vertices[v as usize].to_array());
@@ -159,9 +159,25 @@ impl Scene {
             let rest = (w == 0.0).then_some(w).into_iter().chain(cone.into_iter().flatten());
             xyz.to_array().into_iter().chain(rest).map(f32::to_bits).collect::<Vec<_>>()
         });
-        corners.chain(lights).flat_map(u32::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        })
+        let holes = (0..self.triangles.len() as u32).filter_map(|t| Some((t, self.masked(t)?)));
+        let places = holes.flat_map(|(t, masked)| {
+            let mask = self.material(t).coverage.mask().unwrap_or_default();
+            masked.coordinates.into_iter().flatten().map(f32::to_bits).chain([mask])
+        });
+        let holes = self.alpha_masks.iter().map(|mask| mask.hash() as u32).chain(places);
+        let apart = |(number, object): (usize, &Object)| {
+            let Shadowing { casts, receives } = object.shadowing;
+            (!(casts && receives)).then_some([number as u32, u32::from(casts), u32::from(receives)])
+        };
+        let parts = self.objects.iter().enumerate().filter_map(apart).flatten();
+        corners
+            .chain(lights)
+            .chain(holes)
+            .chain(parts)
+            .flat_map(u32::to_le_bytes)
+            .fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            })
     }
 
     /// The smallest axis-aligned box around all triangles, or `None` for an empty scene.

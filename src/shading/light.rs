@@ -50,10 +50,10 @@ fn sample_point(light: &PointLight, point: DVec3) -> Option<LightSample> {
     let attenuation = match light.falloff {
         Falloff::InverseSquare => 1.0 / squared,
         Falloff::Range(range) => window(squared, f64::from(range)) / squared,
-        // Divided all the same, so that there is none where no direction is.
-        Falloff::Constant => squared / squared,
+        Falloff::Constant => 1.0,
     };
-    if !(attenuation > 0.0 && attenuation.is_finite()) {
+    // At the light itself no direction is.
+    if !(attenuation > 0.0 && attenuation.is_finite() && squared > 0.0) {
         return None;
     }
     Some(LightSample {

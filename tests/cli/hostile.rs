@@ -41,6 +41,25 @@ fn an_obj_with_an_index_out_of_range() {
 }
 
 #[test]
+fn a_ply_that_declares_more_than_it_holds() {
+    let folder = Folder::new();
+    let text = "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\nproperty float x\n\
+                property float y\nproperty float z\nelement face 1\nproperty list uint int vertex_index\nend_header\n";
+    refused(
+        &folder,
+        &folder.write("many.ply", text),
+        "many.ply:3: element `vertex`: it declares 99999999999",
+    );
+}
+
+#[test]
+fn an_nff_with_a_sphere() {
+    let folder = Folder::new();
+    let scene = folder.write("ball.nff", "f 1 1 1 1 0 1 0 0\np 3\n0 0 0\n1 0 0\n0 1 0\ns 0 0 0 1\n");
+    refused(&folder, &scene, "ball.nff:6: spheres are not supported yet");
+}
+
+#[test]
 fn a_gltf_that_reads_outside_its_folder() {
     let folder = Folder::new();
     folder.write("secret.bin", triangle_bytes());
@@ -77,7 +96,7 @@ fn what_is_no_scene_at_all() {
 #[test]
 fn a_device_under_the_name_of_a_scene() {
     let folder = Folder::new();
-    for name in ["zero.obj", "zero.gltf", "zero.glb"] {
+    for name in ["zero.obj", "zero.ply", "zero.gltf", "zero.glb", "zero.nff"] {
         std::os::unix::fs::symlink("/dev/zero", folder.path(name)).unwrap();
         refused(&folder, &folder.path(name), "expected a regular file, found a device");
     }

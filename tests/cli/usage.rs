@@ -19,9 +19,7 @@ fn help_explains_exit_codes_channels_and_verdicts() {
     assert!(lightbuffer(["--help"]).done().stdout.contains("Exit codes: 0 done and right; 1 done, but"));
     for command in ["validate", "render"] {
         let help = lightbuffer([command, "--help"]).done().stdout;
-        for words in
-            ["shadow.LIGHT.difference", "shadow.LIGHT.verdict", "5 Embree wrong", "[default: 1280x720]"]
-        {
+        for words in ["shadow.LIGHT.difference", "shadow.LIGHT.verdict", "5 Embree wrong", "else 1280x720]"] {
             assert!(help.contains(words), "{command}: {words}");
         }
     }

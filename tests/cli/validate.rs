@@ -58,7 +58,17 @@ fn the_document_has_the_keys_that_are_promised() {
     let lights = report["lights"].as_array().unwrap();
     assert_eq!(lights.iter().map(|l| &l["name"]).collect::<Vec<_>>(), ["light-1", "light-2"]);
     for light in lights {
-        assert_eq!(keys(light), ["facing_away", "name", "queries", "testers", "verdicts"]);
+        let promised = [
+            "facing_away",
+            "name",
+            "not_receiving",
+            "outside_cone",
+            "queries",
+            "testers",
+            "verdicts",
+            "wrong_pixels",
+        ];
+        assert_eq!(keys(light), promised);
     }
     assert_eq!(keys(&report["totals"]), ["queries", "testers", "verdicts"]);
     for place in lights.iter().chain([&report["totals"]]) {

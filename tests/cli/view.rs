@@ -67,6 +67,34 @@ fn a_camera_is_chosen_by_name() {
 }
 
 #[test]
+fn a_camera_may_bring_the_size_of_its_image() {
+    let folder = Folder::new();
+    let view = |name: &str, size: &str| {
+        folder.write(
+            name,
+            format!(
+                "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\n{size}l 0 0 9\np 3\n-1 -1 0\n1 -1 0\n0 1 0\n"
+            ),
+        )
+    };
+    let scene = view("scene.nff", "resolution 24 16\n");
+    let size = |scene: &std::path::Path, options: &[&str]| {
+        let out = folder.path("out.exr");
+        let fixed = ["render", "-q", "--no-verdict", "--json", "-", "-o", out.to_str().unwrap()];
+        let arguments = fixed.iter().copied().chain([scene.to_str().unwrap()]).chain(options.iter().copied());
+        let facts = json(&lightbuffer(arguments).done().stdout);
+        (facts["width"].as_u64().unwrap(), facts["height"].as_u64().unwrap())
+    };
+    assert_eq!(size(&scene, &[]), (24, 16));
+    assert_eq!(size(&scene, &["--size", "20x30"]), (20, 30));
+    let mesh = folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    assert_eq!(size(&mesh, &[]), (1280, 720));
+    let line =
+        lightbuffer(["info".as_ref(), view("large.nff", "resolution 9999 9999\n").as_os_str()]).failed();
+    assert!(line.ends_with("large.nff:6: resolution 9999 9999: more than 16777216 pixels"), "{line}");
+}
+
+#[test]
 fn warnings_are_said_and_are_errors_when_strict() {
     let folder = Folder::new();
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n";

@@ -8,7 +8,11 @@ mod gltf_files;
 mod gltf_lights;
 mod gltf_parts;
 mod gltf_poses;
+mod nff_files;
 mod obj_files;
+mod ply_files;
+mod ply_writer;
+mod same_scene;
 
 use lightbuffer::scene::Scene;
 

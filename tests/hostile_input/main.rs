@@ -10,8 +10,12 @@ mod gltf_files;
 #[path = "../formats/gltf_parts.rs"]
 mod gltf_parts;
 mod mutations;
+mod nff_files;
 mod obj_files;
 mod paths;
+mod ply_files;
+#[path = "../formats/ply_writer.rs"]
+mod ply_writer;
 
 use lightbuffer::scene::formats;
 use std::path::Path;

@@ -3,6 +3,7 @@
 use crate::assert_one_line;
 use crate::fixtures::{Folder, data_uri, triangle, triangle_glb};
 use crate::gltf_parts::{accessor, attributes, float_accessor, normalized, paint, png, replace};
+use crate::ply_writer::encoded;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use lightbuffer::scene::formats;
@@ -91,6 +92,16 @@ const PAINT: &str =
 
 const OBJ: &str = "# remark\nmtllib paint.mtl\no first\nv 0 0 0\nv 1 0 0\nv 1 1 0 1.0\nv 0 1 0\nv 0.5 0.2 0\nvt 0 0\nvn 0 0 1\n\
     usemtl red\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -5//-1 -4//-1 -1//-1 \\\n -2//1\ng second\nusemtl blue\nf 1 2 3\nl 1 2\n";
+
+const PLY: &str = "ply\nformat ascii 1.0\ncomment ours\nelement vertex 5\nproperty float x\nproperty double y\nproperty short z\n\
+    property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nelement edge 1\nproperty list int float of\n\
+    element face 3\nproperty list uchar int vertex_indices\nproperty char flag\nelement tristrips 1\n\
+    property list uint int vertex_index\nend_header\n0 0 0 0 0 1 9\n1 0 0 0 0 1 9\n1 1 0 0 0 1 9\n0 1 0 0 0 1 9\n0.5 0.2 0 0 1 0 9\n\
+    2 0.5 1.5\n4 0 1 2 3 7\n5 0 1 4 2 3 7\n3 0 1 2 7\n7 0 1 2 -1 1 2 3\n";
+
+const NFF: &str = "# remark\nb 0 0 0\nv\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 9 9\nl 4 3 2\n\
+    l 1 -4 4 1 0.5 0\nf 1 0.5 0 0.8 0.2 10 0 1\np 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nf 0 1 0 1 0 1 0.5 1.3\npp 4\n0 0 0 0 0 1\n\
+    1 0 0 0 0 1\n0.5 0.2 0 0 1 0\n0 1 0 0 0 1\np 3\n0 0 1\n1 0 1\n0 1 1\n";
 
 /// A document with everything that is read.
 fn document() -> Value {
@@ -204,6 +215,29 @@ proptest! {
     }
 
     #[test]
+    fn of_ply(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.ply", PLY.into(), &changes, |_| ());
+    }
+
+    /// With the header as it was, so that more than the header is read.
+    #[test]
+    fn of_the_body_of_binary_ply(changes in prop::collection::vec(change(), 1..6), big in any::<bool>()) {
+        let encoding = if big { "binary_big_endian" } else { "binary_little_endian" };
+        let file = encoded(PLY, encoding);
+        let body = file.windows(11).position(|bytes| bytes == b"end_header\n").unwrap() + 11;
+        let (header, body) = file.split_at(body);
+        check("some.ply", body.to_vec(), &changes, |body| {
+            body.splice(0..0, header.iter().copied());
+        });
+        check("some.ply", file.clone(), &changes, |_| ());
+    }
+
+    #[test]
+    fn of_nff(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.nff", NFF.into(), &changes, |_| ());
+    }
+
+    #[test]
     fn of_material_libraries(changes in prop::collection::vec(change(), 1..6)) {
         let mut library = PAINT.as_bytes().to_vec();
         changes.iter().for_each(|change| change.apply(&mut library));
@@ -217,7 +251,7 @@ proptest! {
 
     #[test]
     fn of_nothing(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-        for name in ["some.obj", "some.gltf", "some.glb"] {
+        for name in ["some.obj", "some.ply", "some.gltf", "some.glb", "some.nff"] {
             check(name, bytes.clone(), &[], |_| ());
         }
     }

@@ -114,7 +114,7 @@ fn devices_pipes_and_folders() {
     let scene = scene_with_buffer(&folder, "mesh.bin");
     std::fs::create_dir(scene.with_file_name("mesh.bin")).unwrap();
     refused(&scene, &["expected a regular file, found a folder"]);
-    for extension in ["obj", "gltf", "glb"] {
+    for extension in ["obj", "ply", "gltf", "glb", "nff"] {
         let path = scene.with_file_name(format!("zero.{extension}"));
         std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
         refused(&path, &["expected a regular file, found a device"]);
@@ -131,7 +131,7 @@ fn devices_pipes_and_folders() {
 #[test]
 fn a_scene_file_larger_than_the_limit() {
     let folder = Folder::new();
-    for name in ["large.obj", "large.gltf", "large.glb"] {
+    for name in ["large.obj", "large.ply", "large.gltf", "large.glb", "large.nff"] {
         // Without blocks on the disk.
         let path = folder.write(name, "");
         std::fs::File::options().write(true).open(&path).unwrap().set_len((2 << 30) + 1).unwrap();

@@ -12,6 +12,12 @@ pub const MAX_REFERENCED_BYTES: u64 = 2 << 30;
 /// The most bytes of material libraries (.mtl): an entry of nine bytes becomes a material of hundreds.
 pub const MAX_MATERIAL_BYTES: u64 = 16 << 20;
 
+/// The most vertices of a PLY file.
+pub const MAX_VERTICES: u64 = 1 << 28;
+
+/// The most bytes of a PLY file's header: a property of sixteen bytes becomes a record of a hundred.
+pub const MAX_PLY_HEADER_BYTES: usize = 1 << 20;
+
 /// The most triangles after instancing, before degenerate ones are dropped.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
 
@@ -20,6 +26,9 @@ pub const MAX_OBJECTS: u64 = 1 << 20;
 
 /// The most lights; each costs a pass over the image.
 pub const MAX_LIGHTS: usize = 1 << 10;
+
+/// The most pixels of the image that a camera brings; the command line may ask for more.
+pub const MAX_CAMERA_PIXELS: u64 = 1 << 24;
 
 /// The most generations in a tree of nodes.
 pub const MAX_NODE_DEPTH: usize = 1 << 10;
@@ -50,6 +59,9 @@ pub const MAX_FACES: usize = 1 << 24;
 
 /// The most corners on all `f` lines of an OBJ file together.
 pub const MAX_CORNERS: usize = 1 << 26;
+
+/// The most materials of an NFF file: one of fifteen bytes becomes a record of a hundred.
+pub const MAX_FILLS: usize = 1 << 20;
 
 /// The most corners of a polygon that is not strictly convex: cutting it up takes quadratic time.
 pub const MAX_CONCAVE_CORNERS: usize = 1 << 12;

@@ -7,7 +7,9 @@
 mod confined;
 mod gltf;
 pub mod limits;
+mod nff;
 mod obj;
+mod ply;
 mod polygon;
 mod shading_normals;
 mod text;
@@ -16,7 +18,8 @@ use super::Scene;
 use crate::error::{Error, Place, Result};
 use std::path::Path;
 
-/// Reads a scene file; the extension of its name decides the format: `.obj`, `.gltf` or `.glb`.
+/// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`
+/// or `.nff`.
 ///
 /// Files that the scene names are read only from the folder that holds it, or from below.
 ///
@@ -26,10 +29,13 @@ pub fn load(path: &Path) -> Result<Scene> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     let scene = match extension.as_str() {
         "obj" => obj::load(path)?,
+        "ply" => ply::load(path)?,
         "gltf" => gltf::load(path, gltf::Container::Text)?,
         "glb" => gltf::load(path, gltf::Container::Binary)?,
+        "nff" => nff::load(path)?,
         _ => {
-            return Err(Error::input(path, Place::File, "expected a name that ends in .obj, .gltf or .glb"));
+            let why = "expected a name that ends in .obj, .ply, .gltf, .glb or .nff";
+            return Err(Error::input(path, Place::File, why));
         }
     };
     if scene.triangles.is_empty() {
@@ -48,4 +54,9 @@ pub fn load(path: &Path) -> Result<Scene> {
 /// The name that a scene is reported under: its file's name.
 fn scene_name(path: &Path) -> String {
     path.file_name().map_or_else(|| "scene".into(), |name| text::printable(&name.to_string_lossy()))
+}
+
+/// The name of an object in a file that does not name its objects: the file's, without its extension.
+fn file_stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "object".into(), |stem| text::printable(&stem.to_string_lossy()))
 }

@@ -17,7 +17,6 @@ pub(super) struct Findings {
     /// Triangles of materials that are nowhere opaque.
     pub(super) absent: usize,
     textures: usize,
-    masked: usize,
     unreadable: usize,
     blended: usize,
     emissive: usize,
@@ -36,7 +35,6 @@ impl Findings {
                 || entry.occlusion_texture.is_some()
                 || entry.emissive_texture.is_some(),
         );
-        self.masked += usize::from(matches!(presence, Presence::Masked(_)));
         self.unreadable += usize::from(*presence == Presence::Unreadable);
         self.blended += usize::from(entry.alpha_mode.as_deref() == Some("BLEND"));
         self.emissive += usize::from(entry.emissive_factor.is_some_and(|factor| factor != [0.0; 3]));
@@ -77,7 +75,6 @@ impl Findings {
                 "corner",
             ),
             (self.textures, "textures are not drawn", "material"),
-            (self.masked, "alpha masks are drawn opaque", "material"),
             (self.unreadable, "alpha of textures that an extension brings is drawn opaque", "material"),
             (
                 self.blended,

@@ -15,7 +15,7 @@ use super::confined::{self, Denial, Room};
 use super::limits::{MAX_CONCAVE_CORNERS, MAX_MATERIAL_BYTES};
 use super::shading_normals::{self, NO_NORMAL};
 use super::text::{counted, printable};
-use super::{polygon, scene_name};
+use super::{file_stem, polygon, scene_name};
 use crate::error::{Error, Place, Result};
 use crate::scene::{ObjectInput, Scene, SceneBuilder, SmoothNormals};
 use glam::Vec3;
@@ -84,10 +84,6 @@ pub(super) fn load(path: &Path) -> Result<Scene> {
     }
     warn(&mut builder, &tally, &leftovers, &libraries.not_drawn, &usage);
     Ok(builder.finish())
-}
-
-fn file_stem(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "object".into(), |stem| printable(&stem.to_string_lossy()))
 }
 
 /// What was wrong with a line, in words that help to mend it.

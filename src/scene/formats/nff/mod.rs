@@ -1,0 +1,136 @@
+//! NFF, the Neutral File Format of the Standard Procedural Databases.
+//!
+//! An entity is a word at the beginning of a line and its numbers, which may go on in further lines; `#`
+//! begins a remark, and blank lines mean nothing. Coordinates are right-handed and taken as they are.
+//!
+//! - **`v`** becomes a camera that brings its own image size. `hither` has no effect: surfaces nearer to the
+//!   eye are seen as well. Where width and height differ, `angle` is the vertical field, for pixels are
+//!   square.
+//! - **`b`** has no effect: where nothing is seen, images are 0 with an alpha of 0.
+//! - **`l`** becomes a point light that does not thin out with distance. Of n lights each has the usual
+//!   intensity `sqrt(n) / (2 n)` in NFF's units, where a surface that faces it has the radiance colour x Kd x
+//!   intensity. Shading divides irradiance by pi, so that is `pi sqrt(n) / (2 n)`, times the light's colour.
+//! - **`f`** becomes a material: diffuse colour x Kd, highlight Ks with the exponent `shine` of at least 1.
+//!   What transmits is drawn opaque.
+//! - **`p` and `pp`** are cut into triangles, see [`polygon`](super::polygon). All that share an `f` line are
+//!   one object, `fill-3` after the third: the file does not say which polygons belong to one thing. So two
+//!   solids under one `f` are not recognised as convex, which costs speed and no answers. The file's
+//!   sidedness decides what a camera sees of a surface, and is ignored: both sides of everything are drawn.
+//! - **`s` and `c`**, spheres, cylinders and cones, are refused, since a scene without them would be another.
+
+mod fills;
+mod viewpoint;
+mod words;
+
+use self::fills::{Corners, Fills};
+use self::viewpoint::Viewpoint;
+use self::words::{Complaint, Words, shown};
+use super::limits::MAX_LIGHTS;
+use super::text::counted;
+use super::{confined, scene_name};
+use crate::error::{Error, Place, Result};
+use crate::scene::{Camera, Falloff, Light, PointLight, Scene, SceneBuilder};
+use glam::Vec3;
+use std::path::Path;
+
+/// Reads an NFF file.
+///
+/// # Errors
+/// One line with file and line for whatever cannot be read, and for curved primitives.
+pub(super) fn load(path: &Path) -> Result<Scene> {
+    let text = confined::read_scene(path)?;
+    let mut builder = SceneBuilder::new(scene_name(path));
+    read(&text, &mut builder).map_err(|(line, why)| Error::input(path, Place::Line(line), why))?;
+    Ok(builder.finish())
+}
+
+fn read(text: &[u8], builder: &mut SceneBuilder) -> std::result::Result<(), Complaint> {
+    let mut words = Words::new(text);
+    let mut fills = Fills::default();
+    let mut lamps = Vec::new();
+    let (mut cameras, mut oblong) = (0, 0);
+    while let Some(keyword) = words.entity()? {
+        match keyword {
+            b"v" => {
+                let Viewpoint { camera, oblong: is_oblong } = viewpoint::read(&mut words)?;
+                cameras += 1;
+                oblong += usize::from(is_oblong);
+                let name =
+                    if cameras == 1 { camera.name.clone() } else { format!("{}-{cameras}", camera.name) };
+                builder.add_camera(Camera { name, ..camera });
+            }
+            b"b" => {
+                words.finite::<3>()?;
+            }
+            b"l" => {
+                lamps.push(Lamp::read(&mut words)?);
+                if lamps.len() > MAX_LIGHTS {
+                    return Err((words.line(), format!("expected at most {MAX_LIGHTS} lights")));
+                }
+            }
+            b"f" => fills.begin(&mut words, builder)?,
+            b"p" => fills.polygon(Corners::Flat, &mut words, builder)?,
+            b"pp" => fills.polygon(Corners::Smooth, &mut words, builder)?,
+            b"s" => return Err((words.line(), "spheres are not supported yet".into())),
+            b"c" => return Err((words.line(), "cylinders and cones are not supported yet".into())),
+            other => {
+                let why = format!("expected one of v, b, l, f, p and pp, found `{}`", shown(other));
+                return Err((words.line(), why));
+            }
+        }
+    }
+    fills.finish_object(builder).map_err(|why| (words.line(), why))?;
+    let share = std::f64::consts::PI * (lamps.len() as f64).sqrt() / (2.0 * lamps.len() as f64);
+    for (index, lamp) in lamps.iter().enumerate() {
+        builder.add_light(lamp.light(index, share));
+    }
+    fills.warn(builder);
+    if oblong > 0 {
+        let count = counted(oblong, "viewpoint");
+        builder.warn(format!("pixels are square, so that `angle` is the vertical field alone ({count})"));
+    }
+    Ok(())
+}
+
+/// The most that a channel of a light's colour may be, so that all that is computed from it is finite.
+const BRIGHTEST: f32 = 1e30;
+
+/// An `l` line.
+struct Lamp {
+    position: Vec3,
+    colour: [f32; 3],
+}
+
+impl Lamp {
+    /// Reads what follows `l`: three coordinates, and perhaps a colour in the same line.
+    fn read(words: &mut Words) -> std::result::Result<Lamp, Complaint> {
+        let position = words.finite()?.into();
+        let mut given = Vec::new();
+        while given.len() < 3
+            && let Some(word) = words.rest_of_line()
+        {
+            let channel = words::parse(word, "a number").map_err(|why| (words.line(), why))?;
+            if !(0.0..=BRIGHTEST).contains(&channel) {
+                let why = format!("expected a colour from 0 to {BRIGHTEST:e}, found {channel}");
+                return Err((words.line(), why));
+            }
+            given.push(channel);
+        }
+        let colour = match given[..] {
+            [] => [1.0; 3],
+            [r, g, b] => [r, g, b],
+            _ => {
+                let why =
+                    format!("expected three numbers or none as a light's colour, found {}", given.len());
+                return Err((words.line(), why));
+            }
+        };
+        Ok(Lamp { position, colour })
+    }
+
+    fn light(&self, index: usize, share: f64) -> Light {
+        let intensity = self.colour.map(|channel| (f64::from(channel) * share) as f32);
+        let point = PointLight { position: self.position, intensity, falloff: Falloff::Constant };
+        Light::point(format!("light-{}", index + 1), point)
+    }
+}
