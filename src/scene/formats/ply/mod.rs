@@ -104,7 +104,7 @@ impl Plan {
         if let Some(missing) = COORDINATES.iter().find(|name| !named(name)) {
             return Err((element.line, format!("expected a property `{missing}` of its vertices")));
         }
-        let has_normals = NORMAL.iter().all(|name| named(name));
+        let has_normals = NORMAL.iter().all(named);
         let slot = |property: &Property| {
             let normal = NORMAL.iter().filter(|_| has_normals);
             let slot = COORDINATES.iter().chain(normal).position(|name| *name == property.name);
