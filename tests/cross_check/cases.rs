@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 use lightbuffer::scene::{
-    Camera, Cone, DirectionalLight, Emitter, Falloff, Framing, ImageSize, Light, ObjectInput, PointLight,
-    Scene, SceneBuilder, SpotLight, formats, frame,
+    AlphaMask, Camera, Cone, Coverage, DirectionalLight, Emitter, Falloff, Framing, ImageSize, Light,
+    Material, ObjectInput, PointLight, Scene, SceneBuilder, SpotLight, TextureCoordinates, Wrap, formats,
+    frame,
 };
 use std::path::Path;
 
@@ -187,7 +188,44 @@ pub fn all() -> Vec<Case> {
     ];
     cases.push(file("blocks.obj"));
     cases.extend(under_other_lights());
+    cases.extend(with_holes());
     cases
+}
+
+/// Sheets with holes over a floor: texels whose borders run through corners and along edges of the triangles,
+/// and images that go on beyond their sides.
+fn with_holes() -> Vec<Case> {
+    let lights = [lamp(Vec3::from(LIGHT)), lamp(Vec3::new(0.5, 3.0, 0.5)), sun(Vec3::new(-0.5, 1.0, 0.25))];
+    let masked = |wrap: Wrap, texture: &dyn Fn(Vec3) -> [f32; 2]| {
+        let mut builder = SceneBuilder::new("holes");
+        let floor = Parts::default().floor(4.0, 0.0).0.remove(0);
+        builder.add_object(ObjectInput::new("floor", floor.0, floor.1)).unwrap();
+        let mask = builder.add_alpha_mask(AlphaMask::new(4, 3, [wrap; 2], |x, y| (x + y) % 2 == 0));
+        let coverage = Coverage::Masked(mask);
+        let material = builder.add_material(Material { coverage, ..Material::default() });
+        let sheet = |height: f32| Parts::default().grid(3, 1.5, height).0.remove(0);
+        for (positions, triangles) in [sheet(1.0), sheet(1.5)] {
+            let coordinates = positions.iter().map(|&p| texture(p)).collect();
+            let texture_coordinates = Some(TextureCoordinates { coordinates, corners: triangles.clone() });
+            let input = ObjectInput::new("leaf", positions, triangles);
+            builder.add_object(ObjectInput { material, texture_coordinates, ..input }).unwrap();
+        }
+        builder.finish()
+    };
+    let once: &dyn Fn(Vec3) -> [f32; 2] = &|p| [p.x / 3.0 + 0.5, p.z / 3.0 + 0.5];
+    let many: &dyn Fn(Vec3) -> [f32; 2] = &|p| [p.x * 2.0 - p.z, p.z + 0.25 * p.x - p.y];
+    [
+        ("holes of an image once", Wrap::ClampToEdge, once),
+        ("holes of a repeated image", Wrap::Repeat, many),
+        ("holes of a mirrored image", Wrap::MirroredRepeat, many),
+    ]
+    .into_iter()
+    .map(|(name, wrap, texture)| Case {
+        scene: masked(wrap, texture),
+        lights: lights.to_vec(),
+        ..case(name, Parts::default(), EYE, &[])
+    })
+    .collect()
 }
 
 /// The same shapes under lights that are infinitely far away, or that shine into a cone.
@@ -259,13 +297,30 @@ pub fn soup(name: &str, objects: impl Iterator<Item = Vec<[Vec3; 3]>>) -> Scene 
 
 /// The same case with its objects, triangles and corners in another order.
 pub fn turned(case: &Case) -> Case {
-    let objects = case.scene.objects.iter().rev().map(|object| {
-        let triangles = (object.first..object.first + object.count).rev();
-        triangles.map(|t| case.scene.corners(t)).map(|[a, b, c]| [b, c, a]).collect()
-    });
+    let scene = &case.scene;
+    let mut builder = SceneBuilder::new(&case.name);
+    scene.alpha_masks.iter().for_each(|mask| _ = builder.add_alpha_mask(mask.clone()));
+    scene.materials[1..].iter().for_each(|material| _ = builder.add_material(material.clone()));
+    for object in scene.objects.iter().rev() {
+        let triangles: Vec<u32> = (object.first..object.first + object.count).rev().collect();
+        let turn = |[a, b, c]: [Vec3; 3]| [b, c, a];
+        let positions = triangles.iter().flat_map(|&t| turn(scene.corners(t))).collect();
+        let corners: Vec<_> = (0..object.count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let texture_coordinates = object.texture_coordinates.as_ref().map(|_| {
+            let coordinates = triangles.iter().flat_map(|&t| {
+                let [a, b, c] = scene.masked(t).expect("a masked object").coordinates;
+                [b, c, a]
+            });
+            TextureCoordinates { coordinates: coordinates.collect(), corners: corners.clone() }
+        });
+        let input = ObjectInput::new(&object.name, positions, corners);
+        let material = object.material;
+        let shadowing = object.shadowing;
+        builder.add_object(ObjectInput { material, shadowing, texture_coordinates, ..input }).unwrap();
+    }
     Case {
         name: case.name.clone(),
-        scene: soup(&case.name, objects),
+        scene: builder.finish(),
         camera: case.camera.clone(),
         size: case.size,
         lights: case.lights.clone(),
