@@ -3,7 +3,10 @@
 use glam::Vec3;
 use lightbuffer::geometry::LightPosition;
 use lightbuffer::geometry::batch::InstructionSet;
-use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, Shadowing, frame};
+use lightbuffer::scene::{
+    AlphaMask, Camera, Coverage, Framing, ImageSize, Material, ObjectInput, Scene, SceneBuilder, Shadowing,
+    TextureCoordinates, Wrap, frame,
+};
 use lightbuffer::shadow::brute_force::BruteForce;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
@@ -175,4 +178,36 @@ fn what_casts_no_shadow_lies_in_that_of_a_lone_polygon() {
         all_agree(&scene, Vec3::ZERO, &points, Receivers::Surfaces);
         all_agree(&scene, LightPosition::Towards(Vec3::new(0.1, 0.2, -1.0)), &points, Receivers::Surfaces);
     }
+}
+
+#[test]
+fn a_solid_with_holes_covers_no_cell_and_keeps_its_far_sides() {
+    // A box with holes and a polygon with holes, which fills whole cells, between a light and a floor.
+    let mut builder = SceneBuilder::new("holes");
+    let wrap = [Wrap::Repeat; 2];
+    let mask = builder.add_alpha_mask(AlphaMask::new(8, 8, wrap, |column, row| (column + row) % 3 == 0));
+    let material = builder.add_material(Material { coverage: Coverage::Masked(mask), ..Material::default() });
+    let corner = |i: usize| Vec3::from_array([0, 1, 2].map(|k| if i >> k & 1 == 1 { 1.0 } else { -1.0 }));
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let positions = (0..8).map(corner).map(|p| p + Vec3::Z * 4.0).collect();
+    let halves = faces.iter().flat_map(|&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]]).collect();
+    let polygon = vec![Vec3::new(-9.0, -9.0, 2.0), Vec3::new(9.0, -9.0, 2.0), Vec3::new(0.0, 9.0, 2.0)];
+    for (positions, triangles) in [(positions, halves), (polygon, vec![[0, 1, 2]])] {
+        let mut input = ObjectInput::new("with holes", positions, triangles);
+        input.material = material;
+        let coordinates = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let corners = vec![[0, 1, 2]; input.triangles.len()];
+        input.texture_coordinates = Some(TextureCoordinates { coordinates, corners });
+        builder.add_object(input).unwrap();
+    }
+    let floor = vec![Vec3::new(-30.0, -30.0, 8.0), Vec3::new(30.0, -30.0, 8.0), Vec3::new(0.0, 30.0, 8.0)];
+    builder.add_object(ObjectInput::new("floor", floor, vec![[0, 1, 2]])).unwrap();
+    let scene = builder.finish();
+    let points: Vec<_> = (-14..15)
+        .flat_map(|i| (-14..15).map(move |j| Vec3::new(i as f32 * 0.021, j as f32 * 0.021, 1.0)))
+        .map(|d| SurfacePoint::on_ray(&scene, Vec3::ZERO, d, scene.triangles.len() as u32 - 1))
+        .collect();
+    all_agree(&scene, Vec3::ZERO, &points, Receivers::Surfaces);
+    all_agree(&scene, Vec3::new(0.3, 0.2, 0.1), &points, Receivers::Surfaces);
+    all_agree(&scene, LightPosition::Towards(Vec3::new(0.1, 0.2, -1.0)), &points, Receivers::Surfaces);
 }

@@ -33,8 +33,8 @@ use std::collections::HashMap;
 /// Parts with more triangles than this are not examined.
 pub const MOST_TRIANGLES: usize = 1 << 20;
 
-/// Boxes that may be looked at for each triangle of a part, on average, in search of triangles that cross.
-/// Meshes of even triangles need less than two hundred; a thousand triangles around one corner need more.
+/// Boxes that may be looked at for each triangle of a part, on average, in search of triangles that cross. Only
+/// where thousands of triangles meet in one place are there more.
 const MOST_BOXES: u64 = 2000;
 
 /// A closed solid.

@@ -201,6 +201,19 @@ fn parts_stand_for_themselves() {
 }
 
 #[test]
+fn what_rays_cannot_tell_is_not_outside() {
+    // Every ray from the light hits two triangles first, in one point and with different sides.
+    let [a, b, c] = [Vec3::new(-1.0, -1.0, 2.0), Vec3::new(1.0, -1.0, 2.0), Vec3::new(0.0, 1.0, 2.0)];
+    let bounds = (Vec3::splat(-9.0), Vec3::splat(9.0));
+    for triangles in [[[a, b, c], [a, c, b]], [[a, c, b], [a, b, c]]] {
+        for outer_side in [Sign::Negative, Sign::Positive] {
+            assert!(!outside::is_outside(Vec3::ZERO, &triangles, bounds, outer_side));
+            assert!(outside::is_outside(Vec3::X * 9.5, &triangles, bounds, outer_side));
+        }
+    }
+}
+
+#[test]
 fn a_crowd_around_one_corner_is_given_up() {
     let flat: Vec<_> = (0..3000).map(|_| Boxed { low: Vec3::ZERO, high: Vec3::ONE }).collect();
     assert_eq!(pairs::any(&flat, 1_000_000, |_, _| false), Search::GivenUp);
