@@ -88,6 +88,41 @@ plant full-occlusion-the-wrong-way $buffer/mod.rs \
     'f64::from(full_occlusion) < at.z_low' 'f64::from(full_occlusion) > at.z_low' \
     every_exact_tester_is_right_in_every_case_at_every_resolution
 
+plant culled-with-the-light-inside src/shadow/solids.rs \
+    'self.is_outside[solid as usize]' 'solid < u32::MAX' \
+    far_sides_are_culled_unless_the_light_is_inside \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant near-sides-culled src/shadow/solids.rs \
+    '* outer_side == Sign::Negative' '* outer_side == Sign::Positive' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution \
+    all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant copies-culled src/shadow/solids.rs \
+    'if before != triangle {' 'if before > triangle {' \
+    far_sides_are_culled_unless_the_light_is_inside \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant crossing-meshes-are-solids src/geometry/solid/mod.rs \
+    'Search::Found => return Err(Refusal::Crossing),' 'Search::Found => {}' \
+    meshes_that_cross_themselves_are_refused
+
+plant first-hits-of-two-sides src/geometry/solid/outside.rs \
+    'Ordering::Equal if common_side != Some(*side) => common_side = None' \
+    'Ordering::Equal if common_side != Some(*side) => common_side = Some(*side)' \
+    what_rays_cannot_tell_is_not_outside
+
+plant receivers-that-cast-nothing-forgotten $buffer/roles.rs \
+    'triangles.chain(culled.iter().copied()).filter(may_be_asked).collect()' \
+    'triangles.chain(culled.iter().copied()).filter(may_be_asked).take(0).collect()' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant receivers-ignored-in-a-cell $buffer/cell.rs \
+    'candidates.sort_unstable_by' 'candidates.retain(|c| c.role != Role::ReceivesOnly);
+    candidates.sort_unstable_by' \
+    what_only_receives_keeps_what_can_shadow_it_and_has_no_record \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
 plant base-surface-rule-dropped $buffer/mod.rs \
     'if base == Some(primitive) || harmless' 'if harmless' \
     the_base_surface_is_not_tested

@@ -3,12 +3,15 @@
 use glam::Vec3;
 use lightbuffer::geometry::LightPosition;
 use lightbuffer::geometry::batch::InstructionSet;
-use lightbuffer::scene::{Camera, Framing, ImageSize, ObjectInput, Scene, SceneBuilder, frame};
+use lightbuffer::scene::{
+    AlphaMask, Camera, Coverage, Framing, ImageSize, Material, ObjectInput, Scene, SceneBuilder, Shadowing,
+    TextureCoordinates, Wrap, frame,
+};
 use lightbuffer::shadow::brute_force::BruteForce;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{BuildInput, Receivers, Resolution, SceneIndex, ShadowTester, exact};
+use lightbuffer::shadow::{BuildInput, Culling, Receivers, Resolution, SceneIndex, ShadowTester, exact};
 use lightbuffer::visibility::{SurfacePoint, classical, t_buffer};
 
 fn scene(objects: &[Vec<[Vec3; 3]>]) -> Scene {
@@ -41,9 +44,12 @@ fn all_agree(scene: &Scene, light: impl Into<LightPosition>, points: &[SurfacePo
         check(format!("brute force, {set:?}"), &BruteForce::new(&input(Resolution::Auto), set));
     }
     for cells in [1, 2, 3, 7, 64] {
-        let buffer = LightBuffer::new(&input(Resolution::Cells(cells))).unwrap();
-        buffer.validate().unwrap();
-        check(format!("light buffer, {cells} cells"), &buffer);
+        for culling in [Culling::Off, Culling::ClosedSolids] {
+            let input = BuildInput { culling, ..input(Resolution::Cells(cells)) };
+            let buffer = LightBuffer::new(&input).unwrap();
+            buffer.validate().unwrap();
+            check(format!("light buffer, {cells} cells, {culling:?}"), &buffer);
+        }
     }
 }
 
@@ -145,4 +151,63 @@ fn audits_reach_triangles_at_the_end_of_the_range() {
     let far = [Vec3::new(3e38, 0.0, 1e38), Vec3::new(3e38, 1e38, 0.0), Vec3::new(2e38, 3e38, 3e38)];
     let point = SurfacePoint::bare(Vec3::new(3e38, 3e37, 3e37)).unwrap();
     all_agree(&scene(&[vec![far]]), Vec3::ZERO, &[point], Receivers::Anywhere);
+}
+
+#[test]
+fn what_casts_no_shadow_lies_in_that_of_a_lone_polygon() {
+    // A sheet that casts nothing, under one polygon and under two of which one covers whole cells: a cell's
+    // list, or its full occlusion, seemed good for nothing, because the sheet is not among the casters.
+    let square = |half: f32, z: f32| {
+        let corner = |x: f32, y: f32| Vec3::new(x * half, y * half, z);
+        let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        vec![[a, b, c], [a, c, d]]
+    };
+    let above = square(4.0, 2.0);
+    for casting in [vec![vec![above[0]]], vec![above.clone()], vec![above.clone(), square(1.0, 1.5)]] {
+        let mut builder = SceneBuilder::extend(scene(&casting));
+        let positions = square(8.0, 4.0).concat();
+        let mut sheet = ObjectInput::new("sheet", positions, vec![[0, 1, 2], [3, 4, 5]]);
+        sheet.shadowing = Shadowing { casts: false, receives: true };
+        builder.add_object(sheet).unwrap();
+        let scene = builder.finish();
+        let first = scene.triangles.len() as u32 - 2;
+        let points: Vec<_> = (-9..10)
+            .flat_map(|i| (-9..10).map(move |j| Vec3::new(i as f32 * 0.2, j as f32 * 0.2, 4.0)))
+            .map(|d| SurfacePoint::on_ray(&scene, Vec3::ZERO, d, first + u32::from(d.y > d.x)))
+            .collect();
+        all_agree(&scene, Vec3::ZERO, &points, Receivers::Surfaces);
+        all_agree(&scene, LightPosition::Towards(Vec3::new(0.1, 0.2, -1.0)), &points, Receivers::Surfaces);
+    }
+}
+
+#[test]
+fn a_solid_with_holes_covers_no_cell_and_keeps_its_far_sides() {
+    // A box with holes and a polygon with holes, which fills whole cells, between a light and a floor.
+    let mut builder = SceneBuilder::new("holes");
+    let wrap = [Wrap::Repeat; 2];
+    let mask = builder.add_alpha_mask(AlphaMask::new(8, 8, wrap, |column, row| (column + row) % 3 == 0));
+    let material = builder.add_material(Material { coverage: Coverage::Masked(mask), ..Material::default() });
+    let corner = |i: usize| Vec3::from_array([0, 1, 2].map(|k| if i >> k & 1 == 1 { 1.0 } else { -1.0 }));
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let positions = (0..8).map(corner).map(|p| p + Vec3::Z * 4.0).collect();
+    let halves = faces.iter().flat_map(|&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]]).collect();
+    let polygon = vec![Vec3::new(-9.0, -9.0, 2.0), Vec3::new(9.0, -9.0, 2.0), Vec3::new(0.0, 9.0, 2.0)];
+    for (positions, triangles) in [(positions, halves), (polygon, vec![[0, 1, 2]])] {
+        let mut input = ObjectInput::new("with holes", positions, triangles);
+        input.material = material;
+        let coordinates = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let corners = vec![[0, 1, 2]; input.triangles.len()];
+        input.texture_coordinates = Some(TextureCoordinates { coordinates, corners });
+        builder.add_object(input).unwrap();
+    }
+    let floor = vec![Vec3::new(-30.0, -30.0, 8.0), Vec3::new(30.0, -30.0, 8.0), Vec3::new(0.0, 30.0, 8.0)];
+    builder.add_object(ObjectInput::new("floor", floor, vec![[0, 1, 2]])).unwrap();
+    let scene = builder.finish();
+    let points: Vec<_> = (-14..15)
+        .flat_map(|i| (-14..15).map(move |j| Vec3::new(i as f32 * 0.021, j as f32 * 0.021, 1.0)))
+        .map(|d| SurfacePoint::on_ray(&scene, Vec3::ZERO, d, scene.triangles.len() as u32 - 1))
+        .collect();
+    all_agree(&scene, Vec3::ZERO, &points, Receivers::Surfaces);
+    all_agree(&scene, Vec3::new(0.3, 0.2, 0.1), &points, Receivers::Surfaces);
+    all_agree(&scene, LightPosition::Towards(Vec3::new(0.1, 0.2, -1.0)), &points, Receivers::Surfaces);
 }

@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::film::grouped;
 use crate::geometry::LightPosition;
 use crate::geometry::convexity::Surface;
+use crate::geometry::solid::Refusal;
 use crate::scene::Light;
 use crate::shadow::SceneIndex;
 use serde::Serialize;
@@ -41,12 +42,23 @@ struct Facts {
     non_finite: usize,
     convex_solids: usize,
     convex_sheets: usize,
+    closed_solids: usize,
+    not_solid: NotSolid,
     low: [f32; 3],
     high: [f32; 3],
     lights: Vec<LightFacts>,
     cameras: Vec<String>,
     added: Vec<String>,
     warnings: Vec<String>,
+}
+
+/// Parts of objects that are no closed solids, by the reason.
+#[derive(Debug, Serialize)]
+struct NotSolid {
+    open: usize,
+    turned: usize,
+    crossing: usize,
+    too_large: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -87,6 +99,8 @@ fn facts(view: &View) -> Facts {
     let surfaces = |wanted: Surface| {
         index.convexity.iter().flatten().filter(|convexity| convexity.surface == wanted).count()
     };
+    let solids = index.solids(scene);
+    let refused = |why: Refusal| solids.refused.get(&why).copied().unwrap_or(0);
     let (low, high) = scene.bounds().expect("a scene with triangles");
     Facts {
         scene: scene.name.clone(),
@@ -100,6 +114,13 @@ fn facts(view: &View) -> Facts {
         non_finite: scene.dropped.non_finite,
         convex_solids: surfaces(Surface::Closed),
         convex_sheets: surfaces(Surface::Open),
+        closed_solids: solids.count(),
+        not_solid: NotSolid {
+            open: refused(Refusal::Open),
+            turned: refused(Refusal::Turned),
+            crossing: refused(Refusal::Crossing),
+            too_large: refused(Refusal::TooLarge),
+        },
         low: low.to_array(),
         high: high.to_array(),
         lights: scene.lights.iter().map(light_facts).collect(),
@@ -153,6 +174,16 @@ fn text(facts: &Facts) -> String {
         "  convex, verified: {} solids, {} open sheets",
         count(facts.convex_solids),
         count(facts.convex_sheets)
+    );
+    let why = &facts.not_solid;
+    let _ = writeln!(
+        out,
+        "  closed solids: {}; other parts: {} open, {} turned, {} crossing themselves, {} too large",
+        count(facts.closed_solids),
+        count(why.open),
+        count(why.turned),
+        count(why.crossing),
+        count(why.too_large)
     );
     let _ = writeln!(out, "  bounds: {:?} to {:?}", facts.low, facts.high);
     for light in &facts.lights {

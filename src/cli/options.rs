@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
-use crate::shadow::{BuildInput, EmbreeSettings, Resolution, SceneIndex};
+use crate::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex};
 use clap::Args;
 use glam::Vec3;
 use std::path::PathBuf;
@@ -78,6 +78,12 @@ pub struct RunOptions {
     /// Cells along an edge of the light buffer's cube: 1 to 4096, or auto
     #[arg(long, value_name = "R", default_value = "auto", value_parser = parse_resolution)]
     pub resolution: Resolution,
+    /// Whether the light buffer leaves out polygons that face away from the light, as the 1986 paper does:
+    /// off, or solids for the far sides of closed solids that the light is outside of. Those are recognised,
+    /// never declared: every edge belongs to two triangles that run through it in opposite directions, and
+    /// no triangles cross. No answer depends on it
+    #[arg(long, value_name = "WHAT", default_value = "off", value_parser = parse_culling)]
+    pub cull: Culling,
     /// Share of a segment that Embree leaves out at both ends, in [0, 0.5)
     #[arg(long, value_name = "E", default_value_t = 1e-4, value_parser = parse_epsilon)]
     pub embree_epsilon: f32,
@@ -100,6 +106,16 @@ pub struct RunOptions {
 }
 
 impl RunOptions {
+    /// What all lights of a scene share.
+    pub fn index(&self, scene: &Scene) -> SceneIndex {
+        let index = SceneIndex::new(scene);
+        if self.cull == Culling::ClosedSolids {
+            // Now, so that the first light's time does not hold it.
+            index.solids(scene);
+        }
+        index
+    }
+
     /// What testers of one light are built from, for the surfaces that a camera sees.
     pub fn build_input<'a>(
         &self,
@@ -109,6 +125,7 @@ impl RunOptions {
     ) -> BuildInput<'a> {
         BuildInput {
             resolution: self.resolution,
+            culling: self.cull,
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
             memory: self.memory_limit(),
             ..BuildInput::new(scene, index, light)
@@ -154,6 +171,14 @@ fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
         _ if text == "auto" => Ok(Resolution::Auto),
         Ok(cells @ 1..=crate::shadow::light_buffer::MOST_CELLS) => Ok(Resolution::Cells(cells)),
         _ => Err("expected auto or a number from 1 to 4096".into()),
+    }
+}
+
+fn parse_culling(text: &str) -> std::result::Result<Culling, String> {
+    match text {
+        "off" => Ok(Culling::Off),
+        "solids" => Ok(Culling::ClosedSolids),
+        _ => Err("expected off or solids".into()),
     }
 }
 

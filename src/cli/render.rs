@@ -9,7 +9,7 @@ use crate::film::{unique_safe_names, write_exr};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
-use crate::shadow::{Basis, SceneIndex, TesterEntry, find};
+use crate::shadow::{Basis, TesterEntry, find};
 use crate::verdict::{LightVerdict, Queries, TesterRun, judge, run_tester};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -79,7 +79,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
     let seen = view.look(args.run.memory_limit())?;
-    let index = SceneIndex::new(&view.scene);
+    let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let embree = if args.no_verdict {
         None

@@ -10,7 +10,7 @@ use crate::report::replay::{
 };
 use crate::scene::{ImageSize, Light};
 use crate::shadow::exact::{Arbiter, Contact, Meeting, Occlusion};
-use crate::shadow::{Basis, REGISTRY, SceneIndex};
+use crate::shadow::{Basis, REGISTRY};
 use crate::verdict::{Cause, Queries};
 use crate::visibility::SurfacePoint;
 use std::collections::BTreeMap;
@@ -125,7 +125,7 @@ fn status(queries: &Queries, pixel: u32) -> Status {
 
 fn ask(replay: &mut Replay, args: &Args, view: &View, light: &Light, point: &SurfacePoint) -> Result<()> {
     let scene = &view.scene;
-    let index = SceneIndex::new(scene);
+    let index = args.run.index(scene);
     let input = args.run.build_input(scene, &index, light.position());
     let arbiter = Arbiter::new(&input);
     let truth = arbiter.decide(point);

@@ -79,7 +79,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
     let seen = view.look(args.run.memory_limit())?;
-    let index = SceneIndex::new(&view.scene);
+    let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
     let mut report = Validation {

@@ -88,7 +88,7 @@ fn lie_on_either_side(first: [Vec3; 3], second: [Vec3; 3], corners: &[Vec3]) -> 
 }
 
 /// Equal for equal positions, both zeros alike.
-fn key(p: Vec3) -> [u32; 3] {
+pub(super) fn key(p: Vec3) -> [u32; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 

@@ -18,6 +18,7 @@ pub mod position;
 pub mod ray_triangle;
 mod rounding;
 mod sign;
+pub mod solid;
 pub mod texel;
 
 pub use light_position::{LightPosition, LightSpace};

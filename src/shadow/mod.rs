@@ -13,11 +13,13 @@ pub mod facing;
 pub mod light_buffer;
 mod registry;
 mod scene_index;
+mod solids;
 mod traced_ray;
 
 pub use counters::Counters;
 pub use registry::{Basis, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find};
 pub use scene_index::{Casters, SceneIndex};
+pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;
 
 use crate::error::Result;
@@ -69,6 +71,17 @@ pub enum Receivers {
     Surfaces,
     /// Any point of space.
     Anywhere,
+}
+
+/// What testers that cast triangles may leave out (row 4 of the notes on the 1986 paper). No answer depends on
+/// it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Culling {
+    /// Both sides of everything are cast.
+    #[default]
+    Off,
+    /// The far sides of closed solids that the light is outside of are left out.
+    ClosedSolids,
 }
 
 /// Cells along the edge of a cube face.

@@ -1,6 +1,6 @@
 //! Every shadow tester there is. A tester that is not here is not cross-checked, and a test says so.
 
-use super::{Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
+use super::{Culling, Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::MemoryLimit;
@@ -30,6 +30,8 @@ pub struct BuildInput<'a> {
     pub resolution: Resolution,
     /// Where the queries come from.
     pub receivers: Receivers,
+    /// What may be left out.
+    pub culling: Culling,
     /// Embree's settings.
     pub embree: EmbreeSettings,
     /// The most memory that it may need.
@@ -46,6 +48,7 @@ impl<'a> BuildInput<'a> {
             light: light.into(),
             resolution: Resolution::Auto,
             receivers: Receivers::Surfaces,
+            culling: Culling::Off,
             embree: EmbreeSettings::default(),
             memory: MemoryLimit::NONE,
         }

@@ -1,11 +1,13 @@
 //! What belongs to the scene and not to one light, made once for all of them.
 
+use super::Solids;
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
 use crate::scene::{PrimitiveIndex, Scene};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::collections::HashSet;
+use std::sync::OnceLock;
 
 /// Which triangles are cast, and which objects are convex.
 pub struct SceneIndex {
@@ -17,6 +19,7 @@ pub struct SceneIndex {
     pub bounds: (Vec3, Vec3),
     /// For each object its verified convexity.
     pub convexity: Vec<Option<Convexity>>,
+    solids: OnceLock<Solids>,
 }
 
 impl SceneIndex {
@@ -41,19 +44,24 @@ impl SceneIndex {
                 convexity::verify(&triangles)
             })
             .collect();
-        SceneIndex { casting, bounds, convexity }
+        SceneIndex { casting, bounds, convexity, solids: OnceLock::new() }
+    }
+
+    /// The closed solids of the scene that this index was made of, found when they are first asked for.
+    pub fn solids(&self, scene: &Scene) -> &Solids {
+        self.solids.get_or_init(|| Solids::new(scene))
     }
 }
 
 /// The same for triangles with the same three corners in any order.
-fn key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
+pub(super) fn key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
     // Adding zero makes both zeros one.
     let mut corners = scene.corners(triangle).map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
     corners.sort_unstable();
     corners
 }
 
-/// The casting triangles as one light sees them; those whose plane holds the light are left out.
+/// Casting triangles as one light sees them; those whose plane holds the light are left out.
 pub struct Casters {
     /// Planes of each caster.
     pub planes: Vec<LightTriangle>,
@@ -64,11 +72,20 @@ pub struct Casters {
 }
 
 impl Casters {
-    /// Planes relative to a light.
+    /// All that casts, relative to a light.
     pub fn new(scene: &Scene, index: &SceneIndex, light: LightPosition) -> Casters {
+        Casters::some(scene, index, light, &index.casting)
+    }
+
+    /// Some of the triangles that cast, relative to a light.
+    pub fn some(
+        scene: &Scene,
+        index: &SceneIndex,
+        light: LightPosition,
+        casting: &[PrimitiveIndex],
+    ) -> Casters {
         let space = LightSpace::new(light, index.bounds);
-        let (planes, primitives) = index
-            .casting
+        let (planes, primitives) = casting
             .par_iter()
             .filter_map(|&primitive| Some((LightTriangle::new(&space, scene.corners(primitive))?, primitive)))
             .unzip();

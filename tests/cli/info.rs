@@ -8,6 +8,7 @@ fn text_tells_what_a_scene_holds() {
     for line in [
         "220 objects, 112,492 triangles",
         "convex, verified: 88 solids",
+        "closed solids: 604; other parts: 0 open, 0 turned, 0 crossing themselves, 0 too large",
         "light key: point at",
         "camera view",
     ] {

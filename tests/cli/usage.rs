@@ -41,6 +41,9 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
     for resolution in ["0", "4097", "-1", "many", "1.5"] {
         run(&[&format!("--resolution={resolution}")]).misused("expected auto or a number from 1 to 4096");
     }
+    for cull in ["on", "", "Solids"] {
+        run(&[&format!("--cull={cull}")]).misused("expected off or solids");
+    }
     for light in ["1,2", "1,2,3,4", "1,2,nan", "a,b,c", ""] {
         run(&["--light", light]).misused("expected three finite numbers X,Y,Z");
     }

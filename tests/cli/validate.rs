@@ -190,3 +190,21 @@ fn statistics_say_what_was_built() {
         assert!(run.stderr.contains(words), "{words:?} is not in {}", run.stderr);
     }
 }
+
+#[test]
+fn culling_leaves_out_casters_and_changes_no_mask() {
+    let folder = Folder::new();
+    let image = |options: &[&str]| {
+        let out = folder.path(options.last().unwrap());
+        let run = validate(
+            BLOCKS,
+            &out,
+            &[&["--stats", "--resolution", "17", "--testers", "light-buffer"], options].concat(),
+        );
+        (run.done().stderr, std::fs::read(out.join("image.exr")).unwrap())
+    };
+    let ((off, all), (solids, culled)) = (image(&["--cull", "off"]), image(&["--cull", "solids"]));
+    assert!(off.contains("  casters culled: 0\n"), "{off}");
+    assert!(solids.contains("  casters culled: ") && !solids.contains("  casters culled: 0\n"), "{solids}");
+    assert!(all == culled, "the pictures differ");
+}

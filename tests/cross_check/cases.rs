@@ -3,8 +3,8 @@
 use glam::Vec3;
 use lightbuffer::scene::{
     AlphaMask, Camera, Cone, Coverage, DirectionalLight, Emitter, Falloff, Framing, ImageSize, Light,
-    Material, ObjectInput, PointLight, Scene, SceneBuilder, SpotLight, TextureCoordinates, Wrap, formats,
-    frame,
+    Material, ObjectInput, PointLight, Scene, SceneBuilder, Shadowing, SpotLight, TextureCoordinates, Wrap,
+    formats, frame,
 };
 use std::path::Path;
 
@@ -31,12 +31,41 @@ pub fn sun(towards: Vec3) -> Light {
 
 /// Builds scenes from boxes, sheets and fans.
 #[derive(Default)]
-struct Parts(Vec<(Vec<Vec3>, Vec<[u32; 3]>)>);
+struct Parts(Vec<(Vec<Vec3>, Vec<[u32; 3]>, Shadowing)>);
 
 impl Parts {
     fn mesh(mut self, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Parts {
-        self.0.push((positions, triangles));
+        self.0.push((positions, triangles, Shadowing::default()));
         self
+    }
+
+    /// The last part neither casts nor receives but as said.
+    fn shadowing(mut self, shadowing: Shadowing) -> Parts {
+        self.0.last_mut().expect("a part").2 = shadowing;
+        self
+    }
+
+    /// A torus around a vertical axis.
+    fn torus(self, centre: [f32; 3], [outer, inner]: [f32; 2]) -> Parts {
+        const AROUND: u32 = 9;
+        const ACROSS: u32 = 6;
+        let turn = |i: u32, n: u32| 2.0 * std::f32::consts::PI * i as f32 / n as f32;
+        let corner = |i: u32, j: u32| {
+            let (u, v) = (turn(i, AROUND), turn(j, ACROSS));
+            let r = outer + inner * libm::cosf(v);
+            let offset = Vec3::new(r * libm::cosf(u), inner * libm::sinf(v), r * libm::sinf(u));
+            Vec3::from(centre) + offset
+        };
+        let positions = (0..AROUND).flat_map(|i| (0..ACROSS).map(move |j| corner(i, j))).collect();
+        let at = |i: u32, j: u32| i % AROUND * ACROSS + j % ACROSS;
+        let triangles = (0..AROUND)
+            .flat_map(|i| (0..ACROSS).map(move |j| (i, j)))
+            .flat_map(|(i, j)| {
+                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        self.mesh(positions, triangles)
     }
 
     /// A square in the plane y = `height`.
@@ -70,9 +99,10 @@ impl Parts {
 
     fn scene(self, name: &str, place: impl Fn(Vec3) -> Vec3) -> Scene {
         let mut builder = SceneBuilder::new(name);
-        for (i, (positions, triangles)) in self.0.into_iter().enumerate() {
+        for (i, (positions, triangles, shadowing)) in self.0.into_iter().enumerate() {
             let positions = positions.into_iter().map(&place).collect();
-            let input = ObjectInput::new(format!("part {i}"), positions, triangles);
+            let mut input = ObjectInput::new(format!("part {i}"), positions, triangles);
+            input.shadowing = shadowing;
             builder.add_object(input).unwrap();
         }
         builder.finish()
@@ -189,6 +219,7 @@ pub fn all() -> Vec<Case> {
     cases.push(file("blocks.obj"));
     cases.extend(under_other_lights());
     cases.extend(with_holes());
+    cases.extend(of_solids());
     cases
 }
 
@@ -204,7 +235,7 @@ fn with_holes() -> Vec<Case> {
         let coverage = Coverage::Masked(mask);
         let material = builder.add_material(Material { coverage, ..Material::default() });
         let sheet = |height: f32| Parts::default().grid(3, 1.5, height).0.remove(0);
-        for (positions, triangles) in [sheet(1.0), sheet(1.5)] {
+        for (positions, triangles, _) in [sheet(1.0), sheet(1.5)] {
             let coordinates = positions.iter().map(|&p| texture(p)).collect();
             let texture_coordinates = Some(TextureCoordinates { coordinates, corners: triangles.clone() });
             let input = ObjectInput::new("leaf", positions, triangles);
@@ -274,6 +305,80 @@ fn under_other_lights() -> Vec<Case> {
     ]
 }
 
+/// Solids that are left out in part, and objects that take half a part in shadows.
+fn of_solids() -> Vec<Case> {
+    const BLOCKS_ONLY: Shadowing = Shadowing { casts: true, receives: false };
+    const RECEIVES_ONLY: Shadowing = Shadowing { casts: false, receives: true };
+    let ring = || Parts::default().floor(4.0, 0.0).torus([0.0, 1.0, 0.0], [1.25, 0.5]);
+    let with_suns = |mut case: Case| {
+        case.lights.extend([sun(Vec3::new(-0.5, 1.0, 0.375)), sun(Vec3::new(0.0, 1.0, 0.0))]);
+        case
+    };
+    vec![
+        with_suns(case(
+            "a ring through a box, with lights in the hole, on the ring and inside it",
+            ring().cuboid([0.75, 0.5, -0.25], [2.0, 1.5, 0.25]),
+            EYE,
+            &[
+                LIGHT,
+                [0.0, 1.0, 0.0],
+                [0.0, 2.0, 0.0],
+                [-1.75, 1.0, 0.0],
+                [-1.25, 1.0, 0.125],
+                [1.0, 1.0, 0.0],
+            ],
+        )),
+        with_suns(case(
+            "an eye inside a box",
+            Parts::default()
+                .cuboid([-3.0, -1.0, -3.0], [3.0, 3.0, 5.0])
+                .cuboid([-0.5, -0.5, -0.5], [0.5, 1.0, 0.5])
+                .torus([0.0, 1.5, 0.0], [1.0, 0.25]),
+            EYE,
+            &[LIGHT, [-2.0, 2.5, 1.5], [0.0, 7.0, 0.0], [3.0, 1.0, 0.0], [0.25, 0.5, 0.0]],
+        )),
+        with_suns(case(
+            "a floor that casts nothing under one polygon, and a lid that receives nothing",
+            Parts::default()
+                .floor(4.0, 0.0)
+                .shadowing(RECEIVES_ONLY)
+                .mesh(
+                    vec![Vec3::new(-2.0, 1.0, -1.0), Vec3::new(0.5, 1.25, 1.5), Vec3::new(1.5, 1.0, -1.0)],
+                    vec![[0, 1, 2]],
+                )
+                .floor(0.5, 2.0)
+                .shadowing(BLOCKS_ONLY),
+            EYE,
+            &[LIGHT, [0.0, 4.0, 0.0], [0.0, 1.5, 0.0]],
+        )),
+        with_suns(case(
+            "solids that cast nothing beside solids that receive nothing",
+            Parts::default()
+                .floor(4.0, 0.0)
+                .shadowing(RECEIVES_ONLY)
+                .cuboid([-1.0, 0.0, -1.0], [0.0, 1.0, 0.0])
+                .shadowing(RECEIVES_ONLY)
+                .torus([0.0, 1.5, 0.0], [1.0, 0.25])
+                .shadowing(BLOCKS_ONLY)
+                .cuboid([0.5, 0.0, -0.5], [1.5, 0.5, 0.5]),
+            EYE,
+            &[LIGHT, [0.0, 4.0, 0.0], [-0.5, 0.5, -0.5], [1.0, 0.25, 0.0]],
+        )),
+        with_suns(case(
+            "boxes with a face in common, and one in the other turned inside out",
+            Parts::default()
+                .floor(4.0, 0.0)
+                .cuboid([0.0, 0.0, -1.0], [1.0, 1.0, 0.0])
+                .cuboid([-1.0, 0.0, -1.0], [0.0, 1.0, 0.0])
+                .cuboid([-1.0, 1.0, -1.0], [0.0, 2.0, 0.0])
+                // Its corners in descending order: normals point inwards.
+                .cuboid([-0.25, 0.75, -0.25], [-0.75, 0.25, -0.75]),
+            EYE,
+            &[LIGHT, [3.0, 2.0, -0.5], [-0.5, 0.5, -0.5], [-0.1, 0.5, -0.1], [0.5, 0.5, -0.5]],
+        )),
+    ]
+}
+
 /// A demo scene, small.
 fn file(name: &str) -> Case {
     let mut scene = formats::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap();
@@ -284,12 +389,13 @@ fn file(name: &str) -> Case {
 }
 
 /// A scene of objects whose triangles share no vertices by index.
-pub fn soup(name: &str, objects: impl Iterator<Item = Vec<[Vec3; 3]>>) -> Scene {
+pub fn soup(name: &str, objects: impl Iterator<Item = (Vec<[Vec3; 3]>, Shadowing)>) -> Scene {
     let mut builder = SceneBuilder::new(name);
-    for triangles in objects {
+    for (triangles, shadowing) in objects {
         let positions = triangles.iter().flatten().copied().collect();
         let triangles = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let input = ObjectInput::new("part", positions, triangles);
+        let mut input = ObjectInput::new("part", positions, triangles);
+        input.shadowing = shadowing;
         builder.add_object(input).unwrap();
     }
     builder.finish()

@@ -4,14 +4,14 @@ mod cases;
 mod random;
 mod runner;
 
-use lightbuffer::shadow::{Basis, REGISTRY, Resolution};
+use lightbuffer::shadow::{Basis, Culling, REGISTRY, Resolution, TesterEntry, find};
 use runner::{Asked, Setting, ask};
 
 /// Resolutions from a single cell a face to many more than there are triangles.
 const RESOLUTIONS: [u32; 4] = [1, 7, 64, 1000];
 
 fn setting(resolution: u32) -> Setting {
-    Setting { resolution: Resolution::Cells(resolution), threads: 2 }
+    Setting { resolution: Resolution::Cells(resolution), culling: Culling::Off, threads: 2 }
 }
 
 #[test]
@@ -30,7 +30,35 @@ fn every_exact_tester_is_right_in_every_case_at_every_resolution() {
                 asked.assert_equal(&answers, &truth, &format!("{} at R = {resolution}", entry.name));
             }
         }
+        for resolution in RESOLUTIONS {
+            let setting = Setting { culling: Culling::ClosedSolids, ..setting(resolution) };
+            let answers = ask(light_buffer(), &asked, setting);
+            asked.assert_equal(&answers, &truth, &format!("culling at R = {resolution}"));
+        }
     }
+}
+
+fn light_buffer() -> &'static TesterEntry {
+    find("light-buffer").expect("a tester of the registry")
+}
+
+#[test]
+fn far_sides_are_culled_unless_the_light_is_inside() {
+    let culled = |name: &str| {
+        let cases = cases::all();
+        let case = cases.iter().find(|case| case.name == name).expect("a case");
+        Asked::of(case).culled()
+    };
+    // Three boxes of two or three far sides each, two triangles a side. The floor is no solid.
+    let boxes = culled("boxes that touch the floor and each other");
+    assert!(boxes.iter().all(|n| (12..=18).contains(n) && n % 2 == 0), "{boxes:?}");
+    let inside = culled("a light inside a box with a window");
+    assert_eq!(inside, [10, 6], "of the inner box alone");
+    // Hidden behind the others, whichever is cast for all of them.
+    assert_eq!(culled("a thousand copies of one box"), [0]);
+    let ring = culled("a ring through a box, with lights in the hole, on the ring and inside it");
+    assert!(ring[0] > 40 && ring[1] > 40, "{ring:?}");
+    assert!(ring[4] <= 10, "inside the ring, only the box counts: {ring:?}");
 }
 
 #[cfg(feature = "embree")]
@@ -59,8 +87,10 @@ fn masks_do_not_depend_on_threads() {
     for case in cases::all() {
         let asked = Asked::of(&case);
         for entry in REGISTRY.iter().filter(|entry| entry.basis != Basis::Measured) {
-            let one = ask(entry, &asked, Setting { resolution: Resolution::Auto, threads: 1 });
-            let two = ask(entry, &asked, Setting { resolution: Resolution::Auto, threads: 2 });
+            let [one, two] = [1, 2].map(|threads| {
+                let culling = Culling::ClosedSolids;
+                ask(entry, &asked, Setting { resolution: Resolution::Auto, culling, threads })
+            });
             assert_eq!(one, two, "{}: {}", case.name, entry.name);
         }
     }
@@ -90,9 +120,7 @@ fn masks_do_not_depend_on_the_build_profile() {
     let bits = cases::all().iter().flat_map(|case| Asked::of(case).plain_truth()).collect::<Vec<_>>();
     let native = cases::all()
         .iter()
-        .flat_map(|case| {
-            ask(lightbuffer::shadow::find("light-buffer").unwrap(), &Asked::of(case), setting(64))
-        })
+        .flat_map(|case| ask(light_buffer(), &Asked::of(case), setting(64)))
         .collect::<Vec<_>>();
     assert_eq!(runner::checksum(&bits), runner::checksum(&native));
     assert_eq!(
@@ -108,7 +136,9 @@ fn buffers_pass_their_own_audit() {
     for case in cases::all() {
         let asked = Asked::of(&case);
         for resolution in RESOLUTIONS {
-            asked.audit(Resolution::Cells(resolution));
+            for culling in [Culling::Off, Culling::ClosedSolids] {
+                asked.audit(Setting { culling, ..setting(resolution) });
+            }
         }
     }
 }

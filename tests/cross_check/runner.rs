@@ -8,17 +8,18 @@ use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::facing::Sides;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{BuildInput, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
+use lightbuffer::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
 use lightbuffer::verdict::Queries;
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
 /// Checksum of the masks of all cases, the same in every build profile.
-pub const RECORDED_CHECKSUM: u64 = 17_664_465_998_549_095_171;
+pub const RECORDED_CHECKSUM: u64 = 9_087_887_782_721_129_968;
 
 /// How a tester is built and run.
 #[derive(Clone, Copy)]
 pub struct Setting {
     pub resolution: Resolution,
+    pub culling: Culling,
     pub threads: usize,
 }
 
@@ -41,6 +42,7 @@ impl<'a> Asked<'a> {
     fn input(&self, light: LightPosition, setting: Setting) -> BuildInput<'_> {
         BuildInput {
             resolution: setting.resolution,
+            culling: setting.culling,
             embree: EmbreeSettings { threads: setting.threads, ..EmbreeSettings::default() },
             ..BuildInput::new(&self.case.scene, &self.index, light)
         }
@@ -82,12 +84,22 @@ impl<'a> Asked<'a> {
     }
 
     /// The light buffers' own invariants.
-    pub fn audit(&self, resolution: Resolution) {
+    pub fn audit(&self, setting: Setting) {
         for (light, _) in &self.lights {
-            let buffer = LightBuffer::new(&self.input(*light, Setting { resolution, threads: 1 })).unwrap();
+            let buffer = LightBuffer::new(&self.input(*light, setting)).unwrap();
             let audit = buffer.validate().unwrap_or_else(|e| panic!("{}: {e}", self.case.name));
             assert!(audit.cells > 0 && audit.directions > 0);
         }
+    }
+
+    /// Triangles that are culled, light by light.
+    pub fn culled(&self) -> Vec<u64> {
+        let setting =
+            Setting { resolution: Resolution::Cells(1), culling: Culling::ClosedSolids, threads: 1 };
+        let culled = |(light, _): &(LightPosition, Queries)| {
+            LightBuffer::new(&self.input(*light, setting)).unwrap().counts().culled
+        };
+        self.lights.iter().map(culled).collect()
     }
 }
 

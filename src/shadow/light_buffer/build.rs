@@ -4,7 +4,7 @@
 //! Lists stand end to end in one array (compressed rows), their starts and the full-occlusion depths in
 //! another.
 
-use super::cell::{self, Candidate, Cover, Dropped};
+use super::cell::{self, Candidate, Cover, Dropped, Role};
 use super::cells::{Cells, side_grid};
 use super::convex_cover::ConvexObjects;
 use super::{Header, Record, SideLists, Statistics};
@@ -12,17 +12,20 @@ use crate::error::{Error, Result};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::planes::{OrientedPlanes, oriented};
 use crate::memory::MemoryLimit;
+use crate::scene::PrimitiveIndex;
 use crate::shadow::{BuildInput, Casters, Receivers};
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// A caster's projection on one side.
+/// A triangle's projection on one side.
 pub(super) struct Cast {
-    pub caster: u32,
+    pub role: Role,
+    /// The most of a cell that it can cover: not all for what has holes, or only receives.
+    most: Cover,
     pub footprint: Footprint,
 }
 
-/// The part of a side that triangles project on: first column and row, and their numbers.
+/// The part of a side that casters project on: first and last column, first and last row.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     pub columns: [u32; 2],
@@ -33,10 +36,15 @@ impl Window {
     fn around(casts: &[Cast]) -> Window {
         let join = |a: [u32; 2], b: [u32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
         let empty = Window { columns: [u32::MAX, 0], rows: [u32::MAX, 0] };
-        casts.iter().fold(empty, |w, cast| Window {
+        casts.iter().filter(|cast| cast.role != Role::ReceivesOnly).fold(empty, |w, cast| Window {
             columns: join(w.columns, cast.footprint.columns()),
             rows: join(w.rows, cast.footprint.rows()),
         })
+    }
+
+    /// Nothing in it, not even one cell.
+    fn is_empty(&self) -> bool {
+        self.columns[0] > self.columns[1]
     }
 
     fn width(&self) -> usize {
@@ -48,10 +56,11 @@ impl Window {
     }
 }
 
-/// Casts all casters on all sides.
+/// Casts all casters, and triangles that only receive, on all sides.
 pub(super) fn build(
     input: &BuildInput,
     casters: &Casters,
+    receiving_only: &[PrimitiveIndex],
     cells: &Cells,
     resolution: u32,
 ) -> Result<(Vec<Option<SideLists>>, Statistics)> {
@@ -60,13 +69,13 @@ pub(super) fn build(
     let mut statistics = Statistics { resolution, ..Statistics::default() };
     let mut sides = Vec::with_capacity(cells.sides());
     for side in 0..cells.sides() {
-        let casts = project(input, casters, &cells.frame(side), &grid);
-        if casts.is_empty() {
+        let casts = project(input, casters, receiving_only, &cells.frame(side), &grid);
+        let window = Window::around(&casts);
+        if window.is_empty() {
             sides.push(None);
             continue;
         }
         check_memory(&casts, &grid, resolution, input.memory)?;
-        let window = Window::around(&casts);
         let bands = bands(&window);
         let lists: Vec<Band> = bands
             .into_par_iter()
@@ -77,18 +86,23 @@ pub(super) fn build(
     Ok((sides, statistics))
 }
 
-fn project(input: &BuildInput, casters: &Casters, frame: &Frame, grid: &Grid) -> Vec<Cast> {
-    casters
-        .primitives
-        .par_iter()
-        .enumerate()
-        .filter_map(|(caster, &primitive)| {
-            let corners = oriented(casters.space.light(), input.scene.corners(primitive))?;
-            let planes = OrientedPlanes::new(&casters.space, corners.map(Vec3::as_dvec3));
-            let footprint = Footprint::new(grid, frame, &planes)?;
-            Some(Cast { caster: caster as u32, footprint })
-        })
-        .collect()
+fn project(
+    input: &BuildInput,
+    casters: &Casters,
+    receiving_only: &[PrimitiveIndex],
+    frame: &Frame,
+    grid: &Grid,
+) -> Vec<Cast> {
+    let cast = |primitive: PrimitiveIndex, role: Role| {
+        let corners = oriented(casters.space.light(), input.scene.corners(primitive))?;
+        let planes = OrientedPlanes::new(&casters.space, corners.map(Vec3::as_dvec3));
+        let has_gaps = role == Role::ReceivesOnly || input.scene.masked(primitive).is_some();
+        let most = if has_gaps { Cover::Part } else { Cover::Whole };
+        Some(Cast { role, most, footprint: Footprint::new(grid, frame, &planes)? })
+    };
+    let blocking = casters.primitives.par_iter().enumerate();
+    let blocking = blocking.filter_map(|(caster, &t)| cast(t, Role::Blocks(caster as u32)));
+    blocking.chain(receiving_only.par_iter().filter_map(|&t| cast(t, Role::ReceivesOnly))).collect()
 }
 
 /// Checks what the lists of one side can need before they are made: an entry and its place in the order for
@@ -141,7 +155,7 @@ fn fill_band(
     let cells = width * (rows[1] - rows[0] + 1) as usize;
     let cell_of =
         |column: u32, row: u32| (row - rows[0]) as usize * width + (column - window.columns[0]) as usize;
-    let entries = touched_cells(casts, grid, rows, cell_of);
+    let entries = touched_cells(casts, grid, window, rows, cell_of);
     let starts = starts(cells, &entries);
     let mut order = vec![0u32; entries.len()];
     let mut next = starts.clone();
@@ -161,6 +175,7 @@ fn fill_band(
                 let cast = &casts[entries[index as usize].1 as usize];
                 candidate(cast, grid, column, row)
             }));
+            let touching = candidates.iter().filter(|c| c.role != Role::ReceivesOnly).count();
             let single = candidates
                 .iter()
                 .filter(|c| c.cover == Cover::Whole)
@@ -171,17 +186,19 @@ fn fill_band(
             let finished = cell::finish(&mut candidates, single.min(whole_object), receivers);
             band.headers
                 .push(Header { start: band.records.len() as u32, full_occlusion: finished.full_occlusion });
-            band.records.extend(candidates.iter().map(|c| Record { near: c.near, caster: c.caster }));
-            band.statistics.add_cell(members.len(), &candidates, finished);
+            let record = |c: &Candidate| Some(Record { near: c.near, caster: c.role.caster()? });
+            band.records.extend(candidates.iter().filter_map(record));
+            band.statistics.add_cell(touching, &candidates, finished);
         }
     }
     band
 }
 
-/// Pairs of cell and cast for every cell of the rows that a cast can touch.
+/// Pairs of cell and cast for every cell of the window's rows that a cast can touch.
 fn touched_cells(
     casts: &[Cast],
     grid: &Grid,
+    window: &Window,
     rows: [u32; 2],
     cell_of: impl Fn(u32, u32) -> usize,
 ) -> Vec<(u32, u32)> {
@@ -189,7 +206,10 @@ fn touched_cells(
     for (index, cast) in casts.iter().enumerate() {
         let [top, bottom] = cast.footprint.rows();
         for row in top.max(rows[0])..=bottom.min(rows[1]) {
-            if let Some([left, right]) = cast.footprint.span(grid, row) {
+            let Some([left, right]) = cast.footprint.span(grid, row) else { continue };
+            // What only receives may reach beyond what is cast.
+            let (left, right) = (left.max(window.columns[0]), right.min(window.columns[1]));
+            if left <= right {
                 let first = cell_of(left, row) as u32;
                 entries.extend((first..=first + (right - left)).map(|cell| (cell, index as u32)));
             }
@@ -212,8 +232,9 @@ fn starts(cells: usize, entries: &[(u32, u32)]) -> Vec<u32> {
 
 fn candidate(cast: &Cast, grid: &Grid, column: u32, row: u32) -> Candidate {
     let [near, far] = cast.footprint.z_bounds(grid, column, row);
-    let cover = if cast.footprint.covers(grid, column, row) { Cover::Whole } else { Cover::Part };
-    Candidate { near: round_down(near), far: round_up(far), caster: cast.caster, cover }
+    let covers = cast.most == Cover::Whole && cast.footprint.covers(grid, column, row);
+    let cover = if covers { Cover::Whole } else { Cover::Part };
+    Candidate { near: round_down(near), far: round_up(far), role: cast.role, cover }
 }
 
 /// The largest f32 not above a number.

@@ -11,10 +11,29 @@ pub struct Candidate {
     pub near: f32,
     /// At least the farthest z' of the triangle in the cell.
     pub far: f32,
-    /// Index among the casters.
-    pub caster: u32,
+    /// What it is there for.
+    pub role: Role,
     /// How much of the cell its projection covers.
     pub cover: Cover,
+}
+
+/// What a triangle is in a cell for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// To block: the caster with this index.
+    Blocks(u32),
+    /// To be asked about. It has no record, but shadows may fall on it.
+    ReceivesOnly,
+}
+
+impl Role {
+    /// The caster, if it is one.
+    pub fn caster(self) -> Option<u32> {
+        match self {
+            Role::Blocks(caster) => Some(caster),
+            Role::ReceivesOnly => None,
+        }
+    }
 }
 
 /// How much of a closed cell a projection covers.
@@ -37,7 +56,7 @@ pub struct Finished {
     pub dropped: Dropped,
 }
 
-/// Simplifications that rest on all receivers being in the buffer.
+/// Simplifications that rest on all receivers being among the candidates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dropped {
     /// Nothing was left out.
@@ -52,25 +71,28 @@ pub enum Dropped {
 /// single triangles and convex objects, or infinite.
 ///
 /// Behind a cover everything is dark, so a record whose nearest depth lies behind can go: what it blocks is
-/// deeper still. A record exactly at that depth stays.
+/// deeper still. A record exactly at that depth stays. What only receives decides with the others whether a
+/// record is of use to anybody, and then goes.
 pub fn finish(candidates: &mut Vec<Candidate>, cover_depth: f32, receivers: Receivers) -> Finished {
-    candidates.sort_unstable_by(|a, b| a.near.total_cmp(&b.near).then(a.caster.cmp(&b.caster)));
+    candidates.sort_unstable_by(|a, b| a.near.total_cmp(&b.near).then(a.role.cmp(&b.role)));
     let kept = candidates.partition_point(|c| c.near <= cover_depth);
-    let pruned = (candidates.len() - kept) as u32;
+    let blocks = |candidate: &Candidate| candidate.role != Role::ReceivesOnly;
+    let pruned = candidates[kept..].iter().filter(|c| blocks(c)).count() as u32;
+    let is_nothing_behind = kept == candidates.len();
     candidates.truncate(kept);
     let mut finished = Finished { full_occlusion: cover_depth, pruned, dropped: Dropped::Nothing };
-    if receivers == Receivers::Anywhere || pruned > 0 {
-        return finished;
+    if receivers == Receivers::Surfaces && is_nothing_behind {
+        // Every receiver is on one of the candidates. Alone, a triangle shadows nothing in its own plane.
+        if candidates.len() == 1 && blocks(&candidates[0]) {
+            candidates.clear();
+            finished.full_occlusion = f32::INFINITY;
+            finished.dropped = Dropped::List;
+        } else if cover_depth < f32::INFINITY && candidates.iter().all(|c| c.far <= cover_depth) {
+            finished.full_occlusion = f32::INFINITY;
+            finished.dropped = Dropped::FullOcclusion;
+        }
     }
-    // Every receiver is on one of the candidates. Alone, a triangle shadows nothing in its own plane.
-    if candidates.len() == 1 {
-        candidates.clear();
-        finished.full_occlusion = f32::INFINITY;
-        finished.dropped = Dropped::List;
-    } else if cover_depth < f32::INFINITY && candidates.iter().all(|c| c.far <= cover_depth) {
-        finished.full_occlusion = f32::INFINITY;
-        finished.dropped = Dropped::FullOcclusion;
-    }
+    candidates.retain(blocks);
     finished
 }
 
@@ -79,11 +101,15 @@ mod tests {
     use super::*;
 
     fn candidate(near: f32, far: f32, caster: u32) -> Candidate {
-        Candidate { near, far, caster, cover: Cover::Part }
+        Candidate { near, far, role: Role::Blocks(caster), cover: Cover::Part }
+    }
+
+    fn receiver(near: f32, far: f32) -> Candidate {
+        Candidate { role: Role::ReceivesOnly, ..candidate(near, far, 0) }
     }
 
     fn casters(candidates: &[Candidate]) -> Vec<u32> {
-        candidates.iter().map(|c| c.caster).collect()
+        candidates.iter().map(|c| c.role.caster().expect("only casters are kept")).collect()
     }
 
     #[test]
@@ -121,5 +147,25 @@ mod tests {
         let mut anywhere = vec![candidate(1.0, 2.0, 0)];
         finish(&mut anywhere, f32::INFINITY, Receivers::Anywhere);
         assert_eq!(casters(&anywhere), [0]);
+    }
+
+    #[test]
+    fn what_only_receives_keeps_what_can_shadow_it_and_has_no_record() {
+        let mut under_one = vec![receiver(3.0, 4.0), candidate(1.0, 2.0, 0)];
+        let finished = finish(&mut under_one, f32::INFINITY, Receivers::Surfaces);
+        assert_eq!((casters(&under_one), finished.dropped), (vec![0], Dropped::Nothing));
+        // Behind a cover, or reaching behind it: the full occlusion is of use.
+        for behind in [receiver(2.5, 4.0), receiver(1.5, 2.5)] {
+            let mut list = vec![candidate(1.0, 2.0, 0), candidate(1.5, 2.0, 1), behind];
+            let finished = finish(&mut list, 2.0, Receivers::Surfaces);
+            assert_eq!(casters(&list), [0, 1]);
+            assert_eq!(finished, Finished { full_occlusion: 2.0, pruned: 0, dropped: Dropped::Nothing });
+        }
+        let mut before = vec![candidate(1.0, 2.0, 0), candidate(1.5, 2.0, 1), receiver(1.0, 2.0)];
+        assert_eq!(finish(&mut before, 2.0, Receivers::Surfaces).dropped, Dropped::FullOcclusion);
+        assert_eq!(casters(&before), [0, 1]);
+        let mut alone = vec![receiver(1.0, 2.0)];
+        assert_eq!(finish(&mut alone, f32::INFINITY, Receivers::Surfaces).dropped, Dropped::Nothing);
+        assert!(alone.is_empty());
     }
 }

@@ -21,8 +21,9 @@ pub(super) struct ConvexObjects {
 }
 
 impl ConvexObjects {
-    /// An object counts only if it has no holes and all of its triangles are cast for it: a face that was merged with another
-    /// object's would be missing from its depth.
+    /// An object counts only if it has no holes and all of its triangles are cast for it: a face that was
+    /// merged with another object's would be missing from its depth. Far sides that were culled are not: they
+    /// are no near sides.
     pub fn new(input: &BuildInput, casters: &Casters) -> ConvexObjects {
         let scene = input.scene;
         let object_of = |primitive: PrimitiveIndex| scene.triangles[primitive as usize].object;
@@ -61,7 +62,7 @@ impl ConvexObjects {
             .iter()
             .enumerate()
             .filter(|(_, c)| c.cover == Cover::Part)
-            .filter_map(|(k, c)| Some((self.objects[c.caster as usize]?, k)))
+            .filter_map(|(k, c)| Some((self.objects[c.role.caster()? as usize]?, k)))
             .collect();
         members.sort_unstable();
         members

@@ -12,6 +12,7 @@ pub mod cells;
 mod convex_cover;
 mod convex_self;
 pub mod cube;
+mod roles;
 pub mod sheet;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ use crate::scene::Scene;
 use crate::visibility::SurfacePoint;
 use cells::{Cells, Located};
 use convex_self::HarmlessObjects;
+use roles::Roles;
 
 /// `light-buffer` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -93,6 +95,8 @@ impl SideLists {
 pub struct Statistics {
     /// Cells along an edge of the cube.
     pub resolution: u32,
+    /// Triangles that are not cast because they are the far sides of solids.
+    pub culled: u64,
     /// Sides that triangles project on.
     pub sides: u64,
     /// Cells that are stored.
@@ -132,7 +136,8 @@ impl<'a> LightBuffer<'a> {
     /// # Errors
     /// [`Error::Usage`] for a resolution outside 1 to 4096, or lists too long for 32-bit offsets.
     pub fn new(input: &BuildInput<'a>) -> Result<LightBuffer<'a>> {
-        let casters = Casters::new(input.scene, input.index, input.light);
+        let roles = Roles::new(input);
+        let casters = Casters::some(input.scene, input.index, input.light, &roles.casting);
         let resolution = match input.resolution {
             Resolution::Auto => automatic_resolution(casters.planes.len()),
             Resolution::Cells(cells) if (1..=MOST_CELLS).contains(&cells) => cells,
@@ -147,7 +152,8 @@ impl<'a> LightBuffer<'a> {
         // Lists are checked when their length is known.
         let headers = cells.sides() as u64 * u64::from(resolution).pow(2) * size_of::<Header>() as u64;
         input.memory.check(format!("a light buffer of {resolution} cells along an edge"), headers)?;
-        let (sides, statistics) = build::build(input, &casters, &cells, resolution)?;
+        let (sides, statistics) = build::build(input, &casters, &roles.receiving_only, &cells, resolution)?;
+        let statistics = Statistics { culled: roles.culled, ..statistics };
         Ok(LightBuffer {
             scene: input.scene,
             receivers: input.receivers,
@@ -251,6 +257,7 @@ impl ShadowTester for LightBuffer<'_> {
         let all_cells = self.cells.sides() as f64 * f64::from(s.resolution).powi(2);
         vec![
             ("resolution", s.resolution.to_string()),
+            ("casters culled", s.culled.to_string()),
             ("sides built", s.sides.to_string()),
             ("cells built", s.cells.to_string()),
             ("list items", s.records.to_string()),

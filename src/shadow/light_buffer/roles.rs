@@ -1,0 +1,43 @@
+//! What is cast, and what takes part because a shadow can fall on it alone (rows 4, 10 and 11 of the notes on
+//! the 1986 paper).
+
+use crate::scene::PrimitiveIndex;
+use crate::shadow::{BuildInput, Culling, Receivers};
+use std::borrow::Cow;
+
+/// The parts that triangles have in one light's buffer.
+pub(super) struct Roles<'a> {
+    /// Triangles that are cast.
+    pub casting: Cow<'a, [PrimitiveIndex]>,
+    /// Triangles that are not, but that may be asked about: the simplifications of a cell's list hold only if
+    /// these are seen too. Empty if nothing is simplified.
+    pub receiving_only: Vec<PrimitiveIndex>,
+    /// Triangles that would be cast, were they not the far sides of solids.
+    pub culled: u64,
+}
+
+impl<'a> Roles<'a> {
+    /// Casts all that blocks light, less what the culling leaves out.
+    pub fn new(input: &BuildInput<'a>) -> Roles<'a> {
+        let (scene, index) = (input.scene, input.index);
+        let (casting, culled) = match input.culling {
+            Culling::Off => (Cow::Borrowed(&index.casting[..]), Vec::new()),
+            Culling::ClosedSolids => {
+                let far_sides = index.solids(scene).far_sides(input.light);
+                let is_far = |&triangle: &PrimitiveIndex| far_sides.contains(scene, triangle);
+                let (far, near): (Vec<_>, Vec<_>) = index.casting.iter().partition(|t| is_far(t));
+                (Cow::Owned(near), far)
+            }
+        };
+        let receiving_only = match input.receivers {
+            Receivers::Surfaces => {
+                let others = scene.objects.iter().filter(|object| !object.shadowing.casts);
+                let triangles = others.flat_map(|object| object.first..object.first + object.count);
+                let may_be_asked = |&triangle: &PrimitiveIndex| scene.object(triangle).shadowing.receives;
+                triangles.chain(culled.iter().copied()).filter(may_be_asked).collect()
+            }
+            Receivers::Anywhere => Vec::new(),
+        };
+        Roles { casting, receiving_only, culled: culled.len() as u64 }
+    }
+}
