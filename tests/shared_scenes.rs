@@ -19,6 +19,8 @@ struct Subject {
     size: ImageSize,
     /// Testers that are held against the arbiter in that picture.
     testers: &'static [&'static str],
+    /// Queries that all triangles are tested for in integers.
+    checked: usize,
 }
 
 const fn size(width: u32, height: u32) -> ImageSize {
@@ -30,6 +32,7 @@ const BUNNY: Subject = Subject {
     triangles: 69_451,
     size: size(1920, 1080),
     testers: &["light-buffer", "embree", "embree-fast"],
+    checked: 10_000,
 };
 
 const TEAPOT: Subject = Subject {
@@ -37,6 +40,7 @@ const TEAPOT: Subject = Subject {
     triangles: 6_320,
     size: size(640, 360),
     testers: &["brute-force", "light-buffer", "embree", "embree-fast"],
+    checked: 10_000,
 };
 
 const BALLOON: Subject = Subject {
@@ -44,6 +48,7 @@ const BALLOON: Subject = Subject {
     triangles: 35_698,
     size: size(640, 360),
     testers: &["brute-force", "light-buffer", "embree", "embree-fast"],
+    checked: 10_000,
 };
 
 const GEARS: Subject = Subject {
@@ -51,6 +56,7 @@ const GEARS: Subject = Subject {
     triangles: 36_610,
     size: size(160, 160),
     testers: &["light-buffer", "embree", "embree-fast"],
+    checked: 1_000,
 };
 
 const TETRA: Subject = Subject {
@@ -58,10 +64,8 @@ const TETRA: Subject = Subject {
     triangles: 4_096,
     size: size(512, 512),
     testers: &["brute-force", "light-buffer", "embree", "embree-fast"],
+    checked: 2_000,
 };
-
-/// Queries of each scene that all triangles are tested for in integers.
-const CHECKED: usize = 10_000;
 
 /// The path of a scene, or an instruction what to do.
 fn path(name: &str) -> PathBuf {
@@ -114,7 +118,7 @@ fn judge_every_query(subject: &Subject) {
     let view = View::of(subject);
     let asked = |name: &&str| cfg!(feature = "embree") || !name.starts_with("embree");
     let entries: Vec<_> = subject.testers.iter().filter(|n| asked(n)).map(|n| find(n).unwrap()).collect();
-    let mut left = CHECKED;
+    let mut left = subject.checked;
     for (light, queries) in view.queries(subject.size).iter().enumerate() {
         let input = view.input(light, Resolution::Auto);
         let judged = timed(|| judge(&input, queries, &entries, &Silent).unwrap());
@@ -147,7 +151,7 @@ fn judge_every_query(subject: &Subject) {
         assert_eq!(counts.agree + counts.embree_wrong, queries.points.len() as u64);
         assert!(verdict.truth.contains(&true) && verdict.truth.contains(&false), "a picture without shadows");
     }
-    assert_eq!(left, 0, "fewer than {CHECKED} queries");
+    assert_eq!(left, 0, "fewer than {} queries", subject.checked);
 }
 
 fn print_testers(verdict: &LightVerdict) {
