@@ -2,7 +2,7 @@
 
 use super::validation::{TesterReport, Totals, Validation, WrongPixel};
 use crate::film::grouped;
-use crate::shadow::{Counters, REGISTRY};
+use crate::shadow::{Counters, testers};
 use crate::verdict::{Cause, TesterRun};
 use crate::visibility::FirstHits;
 use std::fmt::Write;
@@ -59,17 +59,18 @@ pub fn verdict_table(report: &Validation) -> String {
 }
 
 fn rows<'a>(text: &mut String, report: &dyn Fn(&str) -> Option<&'a TesterReport>) {
+    let rows: Vec<_> = testers().filter_map(|entry| Some((entry.name, report(entry.name)?))).collect();
+    // Modes of Embree have long names; a table without them is as wide as ever.
+    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0).max(14);
     let _ = writeln!(
         text,
-        "  {:<14} {:>9} {:>9} {:>10} {:>11} {:>9} {:>7} {:>9}",
+        "  {:<width$} {:>9} {:>9} {:>10} {:>11} {:>9} {:>7} {:>9}",
         "tester", "build ms", "ns/query", "memory", "false shadow", "false light", "wrong", "undecided"
     );
-    for entry in REGISTRY {
-        let Some(t) = report(entry.name) else { continue };
+    for (name, t) in rows {
         let _ = writeln!(
             text,
-            "  {:<14} {:>9.1} {:>9.1} {:>10} {:>12} {:>11} {:>7} {:>9}",
-            entry.name,
+            "  {name:<width$} {:>9.1} {:>9.1} {:>10} {:>12} {:>11} {:>7} {:>9}",
             t.build_seconds * 1e3,
             t.ns_per_query,
             bytes(t.bytes),
