@@ -1,0 +1,91 @@
+//! Every mode of Embree over the same queries. Its errors are measured and not forgiven without bound: where
+//! arithmetic leaves no doubt, every mode must say what is so.
+
+use crate::cases;
+use crate::runner::{Asked, EMBREE_EPSILON, Setting, ask};
+use glam::DVec3;
+use lightbuffer::embree::{Device, EmbreeMode};
+use lightbuffer::shadow::{Basis, Resolution, TesterEntry, testers};
+
+const SETTING: Setting = Setting { resolution: Resolution::Cells(1), threads: 2 };
+
+/// The testers whose errors are measured, but for modes that this Embree lacks.
+fn measured() -> Vec<&'static TesterEntry> {
+    let device = Device::new(1).unwrap();
+    let there =
+        |entry: &&TesterEntry| entry.name.parse().is_ok_and(|m: EmbreeMode| m.expect_in(&device).is_err());
+    testers().filter(|entry| entry.basis == Basis::Measured && !there(entry)).collect()
+}
+
+#[test]
+fn every_mode_is_cross_checked() {
+    let streams = Device::new(1).unwrap().has_streams();
+    let modes = EmbreeMode::all().filter(|mode| streams || !mode.to_string().contains("stream"));
+    let expected: Vec<_> =
+        ["embree", "embree-fast"].map(String::from).into_iter().chain(modes.map(|m| m.to_string())).collect();
+    assert_eq!(measured().iter().map(|entry| entry.name).collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn every_mode_is_right_where_there_is_no_doubt_and_mostly_right_elsewhere() {
+    let (mut clear, mut queries) = (0, 0);
+    for case in cases::all() {
+        let asked = Asked::of(&case);
+        let truth = asked.plain_truth();
+        let beyond_doubt = beyond_doubt(&asked);
+        clear += beyond_doubt.iter().flatten().count();
+        queries += truth.len();
+        for entry in measured() {
+            let answers = ask(entry, &asked, SETTING);
+            let wrong = answers.iter().zip(&truth).filter(|(a, t)| a != t).count();
+            let (name, asked) = (entry.name, truth.len());
+            // A broken oracle gets most answers wrong.
+            assert!(wrong * 20 <= asked, "{}: {name} wrong {wrong} of {asked}", case.name);
+            let doubtless =
+                answers.iter().zip(&beyond_doubt).filter(|(a, c)| c.is_some_and(|c| c != **a)).count();
+            assert_eq!(doubtless, 0, "{}: {name} wrong without doubt", case.name);
+        }
+    }
+    assert!(clear * 2 > queries, "only {clear} of {queries} queries are clear");
+}
+
+/// What Embree's segments meet, as far as arithmetic with a wide margin can tell.
+fn beyond_doubt(asked: &Asked) -> Vec<Option<bool>> {
+    let scene = asked.scene();
+    let triangles: Vec<[DVec3; 3]> =
+        (0..scene.triangles.len() as u32).map(|t| scene.corners(t).map(|corner| corner.as_dvec3())).collect();
+    let answer = |from: DVec3, light: DVec3| {
+        let way = f64::from(EMBREE_EPSILON) * (light - from);
+        let mut blocked = Some(false);
+        for &triangle in &triangles {
+            match crosses(from + way, light - way, triangle) {
+                Some(false) => {}
+                Some(true) => blocked = blocked.map(|_| true),
+                None => blocked = None,
+            }
+        }
+        blocked
+    };
+    asked.queries().map(|(light, point)| answer(point.position, light.as_dvec3())).collect()
+}
+
+/// Whether the segment crosses the triangle; `None` if moving its points by some float steps might change that.
+fn crosses(from: DVec3, to: DVec3, [a, b, c]: [DVec3; 3]) -> Option<bool> {
+    let points = [from, to, a, b, c];
+    let far = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let size = points.iter().map(|p| (*p - from).length()).fold(0.0, f64::max);
+    // Some roundings of floats, and as many products that a mode flushes to zero.
+    let margin = 32.0 * (f64::from(f32::EPSILON) * far * size * size + f64::from(f32::MIN_POSITIVE));
+    let volume = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| (a - d).dot((b - d).cross(c - d));
+    let ends = [volume(a, b, c, from), volume(a, b, c, to)];
+    let edges = [volume(from, to, a, b), volume(from, to, b, c), volume(from, to, c, a)];
+    let apart = |v: &[f64]| v.iter().any(|&x| x > margin) && v.iter().any(|&x| x < -margin);
+    let together = |v: &[f64]| v.iter().all(|&x| x > margin) || v.iter().all(|&x| x < -margin);
+    if together(&ends) || apart(&edges) {
+        Some(false)
+    } else if apart(&ends) && together(&edges) {
+        Some(true)
+    } else {
+        None
+    }
+}
