@@ -114,8 +114,8 @@ static void occluded_1(const LbScene *scene, const LbRay *rays, size_t count, ui
 
 #if LB_EMBREE_MAJOR == 3
 /*
- * Streams of LB_STREAM rays, the last one shorter: so many fit on the stack and in the first cache, and Embree takes
- * a stream apart into pieces of 32 rays or fewer anyway.
+ * Streams of LB_STREAM rays, the last one shorter: so many fit on the stack and in the first cache, and Embree itself
+ * takes a stream apart into pieces that are shorter still.
  */
 static void occluded_stream(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, uint8_t *answers)
 {

@@ -284,6 +284,20 @@ fn a_scene_without_triangles_blocks_nothing() {
 }
 
 #[test]
+fn nothing_blocks_an_empty_segment() {
+    let device = Device::new(1).unwrap();
+    // Around its origin and across its line, all the way past both of its ends.
+    let vertices = [[-1.0, -1.0, -1.0], [2.0, -1.0, 0.0], [-1.0, 2.0, 2.0]];
+    let crossing = segment([0.0; 3], [0.0, 0.0, 2.0]);
+    for options in all_options() {
+        let scene = TriangleScene::new(&device, &vertices, &[[0, 1, 2]], options).unwrap();
+        let rays: Vec<_> = (0..37).map(|i| [crossing, ShadowRay::EMPTY][i % 2]).collect();
+        let expected: Vec<_> = (0..37).map(|i| i % 2 == 0).collect();
+        assert_answers(&scene, &rays, &expected, &format!("{options:?}"));
+    }
+}
+
+#[test]
 fn memory_grows_with_the_scene() {
     let device = Device::new(2).unwrap();
     let bytes = |count| {

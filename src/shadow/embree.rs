@@ -1,9 +1,12 @@
 //! Debian's Embree as oracle and as rival.
 //!
-//! Both trace a float ray from the rounded point towards the light, as a renderer would, so part of their
-//! error is the rounding of their input. `embree` is the oracle: a robust scene, the receiving triangle
+//! It traces a float ray from the rounded point towards the light, as a renderer would, so part of its
+//! error is the rounding of its input. `embree` is the oracle: a robust scene, the receiving triangle
 //! excluded by a filter. `embree-fast` is the rival as renderers run it: a fast scene, no filter, nothing
-//! between it and its speed.
+//! between it and its speed. Every other [`EmbreeMode`] is a tester by its own name ([`MODES`]).
+//!
+//! The rays are made within the time that is taken, by the same code in the same portions for every mode.
+//! Each tester has a device and a scene of its own, so that what a mode takes to build is its own too.
 
 use super::{Basis, Build, BuildInput, Counters, ShadowTester, TesterEntry, TracedRay};
 use crate::embree::{Device, EmbreeMode, QueryOptions, Receiver, ShadowRay, TriangleScene};
