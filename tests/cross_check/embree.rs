@@ -5,6 +5,7 @@ use crate::cases;
 use crate::runner::{Asked, EMBREE_EPSILON, Setting, ask};
 use glam::DVec3;
 use lightbuffer::embree::{Device, EmbreeMode};
+use lightbuffer::geometry::LightPosition;
 use lightbuffer::shadow::{Basis, Resolution, TesterEntry, testers};
 
 const SETTING: Setting = Setting { resolution: Resolution::Cells(1), threads: 2 };
@@ -46,27 +47,37 @@ fn every_mode_is_right_where_there_is_no_doubt_and_mostly_right_elsewhere() {
             assert_eq!(doubtless, 0, "{}: {name} wrong without doubt", case.name);
         }
     }
-    assert!(clear * 2 > queries, "only {clear} of {queries} queries are clear");
+    // All but those in scenes so far from the origin or so small that floats leave doubt about everything.
+    assert!(clear * 5 > queries * 2, "only {clear} of {queries} queries are clear");
 }
 
 /// What Embree's segments meet, as far as arithmetic with a wide margin can tell.
 fn beyond_doubt(asked: &Asked) -> Vec<Option<bool>> {
     let scene = asked.scene();
-    let triangles: Vec<[DVec3; 3]> =
-        (0..scene.triangles.len() as u32).map(|t| scene.corners(t).map(|corner| corner.as_dvec3())).collect();
-    let answer = |from: DVec3, light: DVec3| {
-        let way = f64::from(EMBREE_EPSILON) * (light - from);
-        let mut blocked = Some(false);
-        for &triangle in &triangles {
-            match crosses(from + way, light - way, triangle) {
-                Some(false) => {}
-                Some(true) => blocked = blocked.map(|_| true),
-                None => blocked = None,
+    let casts = |t: &u32| scene.objects[scene.triangles[*t as usize].object as usize].shadowing.casts;
+    let casting = (0..scene.triangles.len() as u32).filter(casts);
+    let casting: Vec<[DVec3; 3]> = casting.map(|t| scene.corners(t).map(|p| p.as_dvec3())).collect();
+    let corners = || casting.iter().flatten().copied();
+    let low = corners().fold(DVec3::INFINITY, DVec3::min);
+    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let epsilon = f64::from(EMBREE_EPSILON);
+    let diameter = (high - low).length();
+    let answer = |light: LightPosition, point: DVec3| {
+        let (towards, near, far) = match light {
+            LightPosition::At(light) => {
+                let way = light.as_dvec3() - point;
+                (way.normalize(), epsilon * way.length(), (1.0 - epsilon) * way.length())
             }
-        }
-        blocked
+            LightPosition::Towards(way) => (way.as_dvec3().normalize(), epsilon * diameter, f64::INFINITY),
+        };
+        // Nothing is farther away than this.
+        let past = (point - low).length() + diameter;
+        let (from, to) = (point + near * towards, point + far.min(past) * towards);
+        let met: Vec<_> = casting.iter().map(|&triangle| crosses(from, to, triangle)).collect();
+        let undoubted = met.iter().all(Option::is_some);
+        (undoubted || met.contains(&Some(true))).then(|| met.contains(&Some(true)))
     };
-    asked.queries().map(|(light, point)| answer(point.position, light.as_dvec3())).collect()
+    asked.queries().map(|(light, point)| answer(light, point.position)).collect()
 }
 
 /// Whether the segment crosses the triangle; `None` if moving its points by some float steps might change that.

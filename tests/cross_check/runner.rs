@@ -59,7 +59,7 @@ impl<'a> Asked<'a> {
 
     /// All queries with their lights, in the order of answers.
     #[cfg(feature = "embree")]
-    pub fn queries(&self) -> impl Iterator<Item = (Vec3, &lightbuffer::SurfacePoint)> {
+    pub fn queries(&self) -> impl Iterator<Item = (LightPosition, &lightbuffer::SurfacePoint)> {
         self.lights.iter().flat_map(|(light, queries)| queries.points.iter().map(|point| (*light, point)))
     }
 
