@@ -52,6 +52,13 @@ Call lb_begin_call(LbError *error);
 uint32_t lb_end_call(Call call, LbDevice *device);
 /* An error of the shim's own; one that Embree reported before it wins. */
 void lb_fail(Call call, const char *text);
+/*
+ * Flushes denormals on this thread, in results and operands, or computes with them; lb_end_call undoes it. Returns
+ * whether there is a choice: where there is none, the mode stays that of the caller.
+ */
+bool lb_choose_denormals(bool flush);
+/* Whether Embree takes streams of rays. */
+bool lb_has_streams(const LbDevice *device);
 
 /* The filter of a scene with LB_SCENE_FILTERED. */
 void lb_exclude_receiver(const struct RTCFilterFunctionNArguments *arguments);

@@ -81,30 +81,61 @@ static QueryArguments query_arguments(QueryContext *context, uint32_t flags)
 /* Embree marks an occluded ray by t_far = -infinity and leaves that of any other as it was. */
 static uint8_t answer(float t_far) { return t_far < -FLT_MAX; }
 
+/* `id` is what the filter knows the ray by. */
+static inline struct RTCRay embree_ray(const LbRay *from, unsigned id)
+{
+    struct RTCRay ray;
+    ray.org_x = from->origin[0];
+    ray.org_y = from->origin[1];
+    ray.org_z = from->origin[2];
+    ray.tnear = from->t_near;
+    ray.dir_x = from->direction[0];
+    ray.dir_y = from->direction[1];
+    ray.dir_z = from->direction[2];
+    ray.time = 0.0f;
+    ray.tfar = from->t_far;
+    ray.mask = 0xFFFFFFFFu;
+    ray.id = id;
+    ray.flags = 0;
+    return ray;
+}
+
 static void occluded_1(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, uint8_t *answers)
 {
     QueryContext context;
     QueryArguments arguments = query_arguments(&context, flags);
     for (size_t i = 0; i < count; i++) {
-        const LbRay *from = &rays[i];
-        struct RTCRay ray;
-        ray.org_x = from->origin[0];
-        ray.org_y = from->origin[1];
-        ray.org_z = from->origin[2];
-        ray.tnear = from->t_near;
-        ray.dir_x = from->direction[0];
-        ray.dir_y = from->direction[1];
-        ray.dir_z = from->direction[2];
-        ray.time = 0.0f;
-        ray.tfar = from->t_far;
-        ray.mask = 0xFFFFFFFFu;
-        ray.id = 0;
-        ray.flags = 0;
-        context.excluded = &from->excluded;
+        struct RTCRay ray = embree_ray(&rays[i], 0);
+        context.excluded = &rays[i].excluded;
         OCCLUDED_1(scene->handle, &ray, &arguments);
         answers[i] = answer(ray.tfar);
     }
 }
+
+#if LB_EMBREE_MAJOR == 3
+/*
+ * Streams of LB_STREAM rays, the last one shorter: so many fit on the stack and in the first cache, and Embree itself
+ * takes a stream apart into pieces that are shorter still.
+ */
+static void occluded_stream(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, uint8_t *answers)
+{
+    QueryContext context;
+    QueryArguments arguments = query_arguments(&context, flags);
+    struct RTCRay stream[LB_STREAM];
+    uint32_t excluded[LB_STREAM];
+    context.excluded = excluded;
+    for (size_t first = 0; first < count; first += LB_STREAM) {
+        const unsigned length = count - first < LB_STREAM ? (unsigned)(count - first) : LB_STREAM;
+        for (unsigned i = 0; i < length; i++)
+            stream[i] = embree_ray(&rays[first + i], i);
+        for (unsigned i = 0; scene->filtered && i < length; i++)
+            excluded[i] = rays[first + i].excluded;
+        rtcOccluded1M(scene->handle, arguments, stream, length, sizeof stream[0]);
+        for (unsigned i = 0; i < length; i++)
+            answers[first + i] = answer(stream[i].tfar);
+    }
+}
+#endif
 
 /* Where the fields of a packet's lanes lie: RTCRay4, 8 and 16 differ in the length of these arrays alone. */
 typedef struct Lanes {
@@ -152,7 +183,7 @@ static inline void load_lanes(Lanes to, const LbRay *rays, unsigned count)
 
 /*
  * Defines occluded_WIDTH: packets of WIDTH rays, whose alignment is WIDTH floats; the lanes past the last ray are
- * inactive. Packets of 4 and 8 are one line each.
+ * inactive.
  */
 #define DEFINE_OCCLUDED(WIDTH)                                                                                         \
     static void occluded_##WIDTH(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags,                \
@@ -186,16 +217,30 @@ static inline void load_lanes(Lanes to, const LbRay *rays, unsigned count)
         }                                                                                                              \
     }
 
+DEFINE_OCCLUDED(4)
+DEFINE_OCCLUDED(8)
 DEFINE_OCCLUDED(16)
 
-uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t width, uint32_t flags,
+uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
                            uint8_t *answers, LbError *error)
 {
     Call call = lb_begin_call(error);
-    switch (width) {
-    case 1: occluded_1(scene, rays, count, flags, answers); break;
-    case 16: occluded_16(scene, rays, count, flags, answers); break;
-    default: lb_fail(call, "packets have 1 or 16 rays");
+    lb_choose_denormals(flags & LB_QUERY_FLUSH_DENORMALS);
+    switch (grouping) {
+    case LB_PACKET_1: occluded_1(scene, rays, count, flags, answers); break;
+    case LB_PACKET_4: occluded_4(scene, rays, count, flags, answers); break;
+    case LB_PACKET_8: occluded_8(scene, rays, count, flags, answers); break;
+    case LB_PACKET_16: occluded_16(scene, rays, count, flags, answers); break;
+    case LB_STREAM:
+#if LB_EMBREE_MAJOR == 3
+        if (lb_has_streams(scene->device)) {
+            occluded_stream(scene, rays, count, flags, answers);
+            break;
+        }
+#endif
+        lb_fail(call, "this Embree has no ray streams");
+        break;
+    default: lb_fail(call, "packets have 1, 4, 8 or 16 rays");
     }
     return lb_end_call(call, scene->device);
 }

@@ -12,6 +12,13 @@
 #include <xmmintrin.h>
 static FloatControl save_float_control(void) { return _mm_getcsr(); }
 static void restore_float_control(FloatControl saved) { _mm_setcsr(saved); }
+bool lb_choose_denormals(bool flush)
+{
+    enum { FLUSH_TO_ZERO = 1 << 15, DENORMALS_ARE_ZERO = 1 << 6 };
+    const unsigned int both = FLUSH_TO_ZERO | DENORMALS_ARE_ZERO;
+    _mm_setcsr(flush ? _mm_getcsr() | both : _mm_getcsr() & ~both);
+    return true;
+}
 #else
 static FloatControl save_float_control(void)
 {
@@ -20,6 +27,11 @@ static FloatControl save_float_control(void)
     return environment;
 }
 static void restore_float_control(FloatControl saved) { fesetenv(&saved); }
+bool lb_choose_denormals(bool flush)
+{
+    (void)flush;
+    return false;
+}
 #endif
 
 /* ---- Errors ---- */
@@ -115,6 +127,16 @@ static uint32_t property(const LbDevice *device, enum RTCDeviceProperty name)
     return (uint32_t)rtcGetDeviceProperty(device->handle, name);
 }
 
+bool lb_has_streams(const LbDevice *device)
+{
+#if LB_EMBREE_MAJOR == 3
+    return property(device, RTC_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED);
+#else
+    (void)device;
+    return false;
+#endif
+}
+
 /* What would make the answers those of another Embree than the one this shim was written for. */
 static void check_device(Call call, const LbDevice *device)
 {
@@ -175,6 +197,9 @@ uint32_t lb_device_info(const LbDevice *device, LbDeviceInfo *info, LbError *err
     info->native_packet_4 = property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED);
     info->native_packet_8 = property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED);
     info->native_packet_16 = property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
+    info->streams = lb_has_streams(device);
+    /* Tried, because the answer is the platform's and lb_end_call undoes it. */
+    info->flushes_denormals = lb_choose_denormals(false);
     return lb_end_call(call, NULL);
 }
 

@@ -27,10 +27,22 @@ enum {
 /* Build quality. */
 enum { LB_BUILD_LOW = 0, LB_BUILD_MEDIUM = 1, LB_BUILD_HIGH = 2 };
 
+/* How many rays go to Embree in one call: a packet of so many, or a stream of up to so many. */
+enum {
+    LB_PACKET_1 = 1,
+    LB_PACKET_4 = 4,
+    LB_PACKET_8 = 8,
+    LB_PACKET_16 = 16,
+    /* Only where LbDeviceInfo.streams is 1. */
+    LB_STREAM = 256
+};
+
 /* Query flags. */
 enum {
     /* The rays of a batch lie close together in space and direction: a promise about speed, not about answers. */
-    LB_QUERY_COHERENT = 1
+    LB_QUERY_COHERENT = 1,
+    /* Denormals count as zero during the queries; without it they do not, whatever the caller's mode. */
+    LB_QUERY_FLUSH_DENORMALS = 2
 };
 
 /* What went wrong first. `text` is one line, ends in 0 and is cut if it is longer. */
@@ -53,6 +65,10 @@ typedef struct LbDeviceInfo {
     uint32_t native_packet_4;
     uint32_t native_packet_8;
     uint32_t native_packet_16;
+    /* Whether rays may be asked as streams: Embree 3 alone has them, if it was built so. */
+    uint32_t streams;
+    /* Whether LB_QUERY_FLUSH_DENORMALS does anything: on x86-64 alone. */
+    uint32_t flushes_denormals;
 } LbDeviceInfo;
 
 /* The segment origin + t * direction, t_near <= t <= t_far, in the space of the vertices. */
@@ -83,10 +99,11 @@ uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_cou
 uint32_t lb_scene_free(LbScene *scene, LbError *error);
 
 /*
- * answers[i] = 1 if rays[i] meets a triangle, else 0, for i < count. `width` is 1 or 16: how many rays go to Embree
- * at once. Any number of threads may query one scene at the same time.
+ * answers[i] = 1 if rays[i] meets a triangle, else 0, for i < count. `grouping` is LB_PACKET_1 and so on or LB_STREAM;
+ * one that is unknown or that this Embree lacks is an error, and then no answer is written. Any number of threads may
+ * query one scene at the same time.
  */
-uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t width, uint32_t flags,
+uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
                            uint8_t *answers, LbError *error);
 
 #endif

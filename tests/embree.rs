@@ -3,54 +3,53 @@
 
 use lightbuffer::Error;
 use lightbuffer::embree::{
-    BuildQuality, CheckedRays, Coherence, Device, PacketWidth, Receiver, Robustness, SceneOptions, ShadowRay,
-    TriangleScene,
+    BuildQuality, CheckedRays, Denormals, Device, EmbreeMode, Grouping, QueryOptions, Receiver, Robustness,
+    SceneOptions, ShadowRay, TriangleScene,
 };
+
+use std::sync::LazyLock;
 
 #[path = "embree/meshes.rs"]
 mod meshes;
 use meshes::{bumpy_ball, segment, soup};
 
-const PACKETS: [PacketWidth; 2] = [PacketWidth::One, PacketWidth::Sixteen];
+/// The usual way to ask.
+const QUERY: QueryOptions = EmbreeMode::ORACLE.query;
 
 /// Every way to build a scene.
 fn all_options() -> Vec<SceneOptions> {
-    let mut all = Vec::new();
-    for robustness in [Robustness::Fast, Robustness::Robust] {
-        for quality in [BuildQuality::Low, BuildQuality::Medium, BuildQuality::High] {
-            for receiver in [Receiver::Included, Receiver::Excluded] {
-                all.push(SceneOptions { robustness, quality, receiver });
-            }
-        }
-    }
+    let all: Vec<_> = EmbreeMode::all().filter(|mode| mode.query == QUERY).map(|mode| mode.scene).collect();
+    assert_eq!(all.len(), 2 * 3 * 2);
     all
 }
+
+/// Every way to ask a scene that this Embree has.
+static QUERIES: LazyLock<Vec<QueryOptions>> = LazyLock::new(|| {
+    let device = Device::new(1).unwrap();
+    let usual = |mode: &EmbreeMode| mode.scene == EmbreeMode::ORACLE.scene && mode.expect_in(&device).is_ok();
+    let all: Vec<_> = EmbreeMode::all().filter(usual).map(|mode| mode.query).collect();
+    assert_eq!(all.len(), (4 + usize::from(device.has_streams())) * 2 * 2);
+    all
+});
 
 fn options(receiver: Receiver) -> SceneOptions {
     SceneOptions { robustness: Robustness::Robust, quality: BuildQuality::Medium, receiver }
 }
 
-fn ask(scene: &TriangleScene, rays: &[ShadowRay], packet: PacketWidth, coherence: Coherence) -> Vec<bool> {
+fn ask(scene: &TriangleScene, rays: &[ShadowRay], query: QueryOptions) -> Vec<bool> {
     // Right answers are written over what is already there: start from every other one.
     let mut answers: Vec<bool> = (0..rays.len()).map(|i| i % 2 == 0).collect();
-    scene.occluded(rays, packet, coherence, &mut answers).unwrap();
+    scene.occluded(rays, query, &mut answers).unwrap();
     answers
 }
 
-/// Every ray must get its expected answer, alone, in packets, coherent or not.
+/// Every ray must get its expected answer in every way to ask.
 fn assert_answers(scene: &TriangleScene, rays: &[ShadowRay], expected: &[bool], what: &str) {
     assert_eq!(rays.len(), expected.len());
-    for packet in PACKETS {
-        for coherence in [Coherence::Coherent, Coherence::Incoherent] {
-            for (i, answer) in ask(scene, rays, packet, coherence).into_iter().enumerate() {
-                let ray = rays[i];
-                assert_eq!(
-                    answer,
-                    expected[i],
-                    "{what}, {packet:?}, {coherence:?}: ray {i} of {}: {ray:?}",
-                    rays.len()
-                );
-            }
+    for query in QUERIES.iter().copied() {
+        for (i, answer) in ask(scene, rays, query).into_iter().enumerate() {
+            let ray = rays[i];
+            assert_eq!(answer, expected[i], "{what}, {query:?}: ray {i} of {}: {ray:?}", rays.len());
         }
     }
 }
@@ -173,20 +172,21 @@ fn each_lane_of_a_packet_has_its_own_excluded_triangle() {
 }
 
 #[test]
-fn packets_with_any_tail_answer_as_single_rays_and_as_arithmetic() {
+fn every_mode_answers_as_arithmetic_does_with_any_tail() {
     let device = Device::new(2).unwrap();
-    let soup = soup(60, 400);
+    let soup = soup(60, 700);
     let differing = soup.blocked.iter().zip(&soup.blocked_without_excluded).filter(|(a, b)| a != b).count();
     let blocked = soup.blocked.iter().filter(|&&blocked| blocked).count();
-    assert!((50..350).contains(&blocked) && differing > 20, "{blocked} blocked, {differing} differing");
+    assert!((100..600).contains(&blocked) && differing > 20, "{blocked} blocked, {differing} differing");
     for options in all_options() {
         let scene = TriangleScene::new(&device, &soup.vertices, &soup.triangles, options).unwrap();
         let expected = match options.receiver {
             Receiver::Included => &soup.blocked,
             Receiver::Excluded => &soup.blocked_without_excluded,
         };
-        for count in [0, 1, 15, 16, 17, 33, 400] {
-            for first in [0, 1, 7, 100].into_iter().filter(|first| first + count <= 400) {
+        // Streams are cut at 256.
+        for count in [0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 33, 255, 256, 257, 700] {
+            for first in [0, 1, 7, 100].into_iter().filter(|first| first + count <= 700) {
                 let part = first..first + count;
                 assert_answers(&scene, &soup.rays[part.clone()], &expected[part], &format!("{options:?}"));
             }
@@ -222,7 +222,7 @@ fn robust_scenes_have_no_holes_along_edges() {
                 assert_answers(&scene, &rays, &vec![true; rays.len()], &format!("{options:?}"));
             }
             Robustness::Fast => {
-                let answers = ask(&scene, &rays, PacketWidth::One, Coherence::Incoherent);
+                let answers = ask(&scene, &rays, QUERY);
                 assert!(answers.contains(&false), "{options:?}");
             }
         }
@@ -280,6 +280,20 @@ fn a_scene_without_triangles_blocks_nothing() {
     for options in all_options() {
         let scene = TriangleScene::new(&device, &[], &[], options).unwrap();
         assert_answers(&scene, &rays, &[false; 17], "empty");
+    }
+}
+
+#[test]
+fn nothing_blocks_an_empty_segment() {
+    let device = Device::new(1).unwrap();
+    // Around its origin and across its line, all the way past both of its ends.
+    let vertices = [[-1.0, -1.0, -1.0], [2.0, -1.0, 0.0], [-1.0, 2.0, 2.0]];
+    let crossing = segment([0.0; 3], [0.0, 0.0, 2.0]);
+    for options in all_options() {
+        let scene = TriangleScene::new(&device, &vertices, &[[0, 1, 2]], options).unwrap();
+        let rays: Vec<_> = (0..37).map(|i| [crossing, ShadowRay::EMPTY][i % 2]).collect();
+        let expected: Vec<_> = (0..37).map(|i| i % 2 == 0).collect();
+        assert_answers(&scene, &rays, &expected, &format!("{options:?}"));
     }
 }
 
@@ -350,21 +364,64 @@ fn what_embree_would_misread_is_refused() {
         ShadowRay { t_far: -1.0, ..good },
         ShadowRay { excluded: 1, ..good },
     ] {
-        for packet in PACKETS {
+        for query in QUERIES.iter().copied() {
             let mut answers = [false; 20];
             let mut rays = [good; 20];
             rays[18] = bad;
-            refused(scene.occluded(&rays, packet, Coherence::Coherent, &mut answers), "ray 18");
+            refused(scene.occluded(&rays, query, &mut answers), "ray 18");
             // Which triangles there are is for the scene to say; everything else is seen before.
             if bad.excluded == ShadowRay::NO_TRIANGLE {
                 refused(CheckedRays::new(&rays), "ray 18");
             }
         }
     }
-    refused(scene.occluded(&[good], PacketWidth::One, Coherence::Coherent, &mut []), "1 rays have 0 answers");
+    refused(scene.occluded(&[good], QUERY, &mut []), "1 rays have 0 answers");
     refused(Device::new(1_000_000), "1000000 threads");
     // None of it has broken the scene.
     assert_answers(&scene, &[good], &[true], "after errors");
+}
+
+/// Where there are no streams, asking for them is an error, and nothing else is done instead.
+#[test]
+fn streams_are_there_or_refused() {
+    let device = Device::new(1).unwrap();
+    let scene = TriangleScene::new(&device, &CORNER, &[[0, 1, 2]], options(Receiver::Included)).unwrap();
+    let rays = [segment([0.5, 0.5, 1.0], [0.5, 0.5, -1.0]); 5];
+    let mode =
+        EmbreeMode { query: QueryOptions { grouping: Grouping::Stream, ..QUERY }, ..EmbreeMode::RIVAL };
+    let mut answers = [false; 5];
+    let asked = scene.occluded(&rays, mode.query, &mut answers);
+    if device.has_streams() {
+        asked.unwrap();
+        mode.expect_in(&device).unwrap();
+        assert_eq!(answers, [true; 5]);
+        assert!(device.version().starts_with("3."), "{}", device.version());
+    } else {
+        for error in [asked.unwrap_err(), mode.expect_in(&device).unwrap_err()] {
+            assert!(error.to_string().contains("no ray streams"), "{error}");
+        }
+        assert_eq!(answers, [false; 5], "answers of a mode that is not there");
+    }
+    let packets = EmbreeMode::all().filter(|mode| mode.query.grouping != Grouping::Stream);
+    packets.for_each(|mode| mode.expect_in(&device).unwrap());
+}
+
+/// The way from 1e-39 above a triangle to it is a denormal: with denormals flushed, the ray begins in its plane, and
+/// a fast scene does not count what it meets at exactly `t_near`.
+#[test]
+fn flushing_denormals_reaches_embree_in_every_grouping() {
+    let device = Device::new(1).unwrap();
+    assert_eq!(device.flushes_denormals(), cfg!(target_arch = "x86_64"));
+    let above = segment([0.5, 0.5, 1e-39], [0.5, 0.5, -1.0]);
+    assert!(above.origin[2].is_subnormal());
+    for quality in [BuildQuality::Low, BuildQuality::Medium, BuildQuality::High] {
+        let options = SceneOptions { quality, ..EmbreeMode::RIVAL.scene };
+        let scene = TriangleScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
+        for query in QUERIES.iter().copied() {
+            let expected = query.denormals == Denormals::Kept || !device.flushes_denormals();
+            assert_eq!(ask(&scene, &[above; 21], query), [expected; 21], "{query:?}");
+        }
+    }
 }
 
 /// Coordinates just inside the bound must not be left out, as Embree does with those outside.

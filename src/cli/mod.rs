@@ -10,6 +10,7 @@ mod picture;
 mod progress;
 mod render;
 mod replay;
+mod testers;
 mod validate;
 mod view;
 

@@ -2,6 +2,7 @@
 
 use super::options::{LightOptions, RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
+use super::testers::expect_available;
 use super::view::{Seen, View};
 use super::{Outcome, output, picture, validate};
 use crate::error::Result;
@@ -75,6 +76,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let tester = find(&args.shadow)?;
+    expect_available(tester)?;
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;

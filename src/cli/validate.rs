@@ -3,13 +3,14 @@
 use super::Outcome;
 use super::options::{LightOptions, RunOptions, ViewOptions};
 use super::progress::{Bars, Messages};
+use super::testers::TesterOptions;
 use super::view::{Seen, View};
 use super::{output, picture};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
-use crate::shadow::{Basis, REGISTRY, SceneIndex, TesterEntry, find};
+use crate::shadow::{SceneIndex, TesterEntry};
 use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
 use std::path::{Path, PathBuf};
 
@@ -26,12 +27,8 @@ pub struct Args {
     /// Folder for validate.json, image.exr and the PNG maps; created if need be
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Testers to hold against the truth, separated by commas [default: all that fit]
-    #[arg(long, value_name = "A,B", value_delimiter = ',')]
-    testers: Vec<String>,
-    /// Tester of the picture, the difference map and the verdict map
-    #[arg(long, value_name = "TESTER", default_value = "light-buffer")]
-    shadow: String,
+    #[command(flatten)]
+    testers: TesterOptions,
     /// Check the arbiter on N queries a light against all triangles in exact integers
     #[arg(long, value_name = "N", default_value_t = 0)]
     check_arbiter: usize,
@@ -55,30 +52,19 @@ Channels of the OpenEXR file beside R G B A, Z, P.*, N.*, albedo.* and id.object
 
 pub fn run(args: &Args) -> Result<Outcome> {
     let messages = Messages::new(args.run.quiet);
-    let entries = choose(&args.testers, &args.shadow)?;
+    let entries = args.testers.choose(messages)?;
     args.run.pool()?.install(|| validate(args, &entries, messages))
-}
-
-/// The testers of the registry that were asked for, the picture's tester and the truth among them.
-fn choose(names: &[String], shadow: &str) -> Result<Vec<&'static TesterEntry>> {
-    find(shadow)?;
-    for name in names {
-        find(name)?;
-    }
-    let wanted = |entry: &&TesterEntry| {
-        names.is_empty()
-            || entry.basis == Basis::Truth
-            || entry.name == shadow
-            || names.iter().any(|n| n == entry.name)
-    };
-    Ok(REGISTRY.iter().filter(wanted).collect())
 }
 
 fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(args.run.memory_limit())?;
+    let limit = args.run.memory_limit();
+    // A byte an answer until all testers of a light have been judged.
+    let answers = view.size.pixels() as u64 * entries.len() as u64;
+    limit.check(format!("the answers of {} testers", entries.len()), answers)?;
+    let seen = view.look(limit)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
@@ -100,7 +86,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let input = args.run.build_input(&view.scene, &index, position);
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
-        let verdict = judge(&input, &queries, &fitting, &bars)?;
+        let mut verdict = judge(&input, &queries, &fitting, &bars)?;
         let mut entry = LightReport::new(&light.name, view.size.width, &queries, &verdict);
         if args.check_arbiter > 0 {
             bars.stage("arbiter against integers");
@@ -111,6 +97,8 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         }
         bars.finish();
         report.lights.push(entry);
+        // What will be no channel has been counted, and sixty masks would be a lot to keep.
+        verdict.testers.retain(|tester| args.testers.has_mask(tester.run.name));
         judged.push((queries, verdict));
     }
     report.totals = Totals::of(&report.lights);
@@ -150,7 +138,13 @@ fn fitting<'e>(
 #[cfg(feature = "embree")]
 pub fn embree_facts(threads: usize, epsilon: f32, _: Messages) -> Result<Option<EmbreeFacts>> {
     let device = crate::embree::Device::new(threads)?;
-    Ok(Some(EmbreeFacts { version: device.version(), isa: device.instruction_set(), epsilon }))
+    Ok(Some(EmbreeFacts {
+        version: device.version(),
+        isa: device.instruction_set(),
+        epsilon,
+        streams: device.has_streams(),
+        flushes_denormals: device.flushes_denormals(),
+    }))
 }
 
 #[cfg(not(feature = "embree"))]
@@ -167,16 +161,16 @@ fn write_all(
     judged: &[(Queries, LightVerdict)],
     report: &Validation,
 ) -> Result<()> {
-    let mut planes = picture::shaded(view, seen, &picture::runs_of(judged, &args.shadow)?)?;
+    let mut planes = picture::shaded(view, seen, &picture::runs_of(judged, &args.testers.shadow)?)?;
     output::folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
     for (name, (queries, verdict)) in names.iter().zip(judged) {
-        for map in picture::add_light(&mut planes, name, queries, verdict, &args.shadow)? {
+        for map in picture::add_light(&mut planes, name, queries, verdict, &args.testers.shadow)? {
             write_false_colour(&file(&format!("{name}.{}.png", map.kind)), &map.colours)?;
         }
     }
     let testers: Vec<_> = judged.iter().take(1).flat_map(|(_, v)| &v.testers).map(|t| t.run.name).collect();
-    picture::add_attributes(&mut planes, view, &testers, &args.shadow, report.embree.as_ref())?;
+    picture::add_attributes(&mut planes, view, &testers, &args.testers.shadow, report.embree.as_ref())?;
     write_exr(&file("image.exr"), &planes)?;
     output::write_preview(&file("image.png"), &planes, args.run.exposure)?;
     output::write_json(&file("validate.json"), report)?;

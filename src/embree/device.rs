@@ -66,6 +66,17 @@ impl Device {
         instruction_set(native).to_owned()
     }
 
+    /// Whether rays may be asked as [`Grouping::Stream`](super::Grouping::Stream). Embree 4 has no streams.
+    pub fn has_streams(&self) -> bool {
+        self.handle.info.streams != 0
+    }
+
+    /// Whether [`Denormals::Flushed`](super::Denormals::Flushed) differs from
+    /// [`Denormals::Kept`](super::Denormals::Kept): on x86-64.
+    pub fn flushes_denormals(&self) -> bool {
+        self.handle.info.flushes_denormals != 0
+    }
+
     pub(super) fn as_ptr(&self) -> *mut ffi::LbDevice {
         self.handle.device.as_ptr()
     }

@@ -4,14 +4,18 @@
 //! [`TriangleScene::occluded`] answers many [`ShadowRay`]s. Beneath lies the C shim in `ffi/`, which hides whether it
 //! is Embree 3 or 4.
 //!
+//! Everything that can be chosen, for scenes and for queries, makes up an [`EmbreeMode`], which has a name.
+//!
 //! An **oracle** run wants [`Robustness::Robust`] and [`Receiver::Excluded`], so that a ray passes through the triangle
 //! it starts on whatever its rounding. A **speed** run wants [`Receiver::Included`] and an epsilon as
-//! [`ShadowRay::t_near`], since a registered filter costs time even where it changes nothing.
+//! [`ShadowRay::t_near`], since a registered filter costs time even where it changes nothing,
+//! and perhaps [`Denormals::Flushed`], as Embree advises.
 //!
 //! The floating-point control word is, after every call, what it was before.
 
 mod device;
 mod ffi;
+mod mode;
 mod query;
 mod scene;
 
@@ -19,7 +23,8 @@ mod scene;
 mod tests;
 
 pub use device::Device;
-pub use query::{CheckedRays, Coherence, PacketWidth, ShadowRay};
+pub use mode::EmbreeMode;
+pub use query::{CheckedRays, Coherence, Denormals, Grouping, PacketWidth, QueryOptions, ShadowRay};
 pub use scene::{BuildQuality, Receiver, Robustness, SceneOptions, TriangleScene};
 
 use std::ffi::c_char;

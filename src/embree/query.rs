@@ -40,11 +40,23 @@ const _: () = {
     assert!(ShadowRay::NO_TRIANGLE == ffi::LB_NO_TRIANGLE);
 };
 
-/// How many rays go to Embree at once.
+/// How many rays a packet has; those of the last packet that are not there are inactive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PacketWidth {
     One,
+    Four,
+    Eight,
     Sixteen,
+}
+
+/// How rays go to Embree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grouping {
+    /// In packets, which Embree traverses together. Widths for which the processor has no vectors that wide work too.
+    Packets(PacketWidth),
+    /// As arrays of up to 256 rays, which Embree groups as it likes. Embree 4 has none of it: see
+    /// [`Device::has_streams`](super::Device::has_streams).
+    Stream,
 }
 
 /// Whether neighbouring rays of a batch lie close together in space and direction: a hint about speed.
@@ -54,9 +66,61 @@ pub enum Coherence {
     Incoherent,
 }
 
+/// What becomes of denormal numbers while Embree answers, whatever the caller's mode is, which is back after the call.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Denormals {
+    /// They are numbers as any other.
+    Kept,
+    /// They are zero, as operands and as results (FTZ and DAZ), which is what Embree advises for speed. On
+    /// processors other than x86-64 this changes nothing: see
+    /// [`Device::flushes_denormals`](super::Device::flushes_denormals).
+    Flushed,
+}
+
+/// How a scene is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct QueryOptions {
+    pub grouping: Grouping,
+    pub coherence: Coherence,
+    pub denormals: Denormals,
+}
+
+impl QueryOptions {
+    fn grouping_code(self) -> u32 {
+        match self.grouping {
+            Grouping::Packets(PacketWidth::One) => ffi::LB_PACKET_1,
+            Grouping::Packets(PacketWidth::Four) => ffi::LB_PACKET_4,
+            Grouping::Packets(PacketWidth::Eight) => ffi::LB_PACKET_8,
+            Grouping::Packets(PacketWidth::Sixteen) => ffi::LB_PACKET_16,
+            Grouping::Stream => ffi::LB_STREAM,
+        }
+    }
+
+    fn flags(self) -> u32 {
+        let coherent = match self.coherence {
+            Coherence::Coherent => ffi::LB_QUERY_COHERENT,
+            Coherence::Incoherent => 0,
+        };
+        let flush = match self.denormals {
+            Denormals::Kept => 0,
+            Denormals::Flushed => ffi::LB_QUERY_FLUSH_DENORMALS,
+        };
+        coherent | flush
+    }
+}
+
 impl ShadowRay {
     /// [`ShadowRay::excluded`] of a ray that every triangle may block.
     pub const NO_TRIANGLE: u32 = u32::MAX;
+
+    /// A segment that has no point, so that nothing blocks it.
+    pub const EMPTY: ShadowRay = ShadowRay {
+        origin: [0.0; 3],
+        t_near: 1.0,
+        direction: [0.0, 0.0, 1.0],
+        t_far: 0.0,
+        excluded: ShadowRay::NO_TRIANGLE,
+    };
 
     fn is_valid(&self) -> bool {
         let in_range = |[x, y, z]: [f32; 3]| {
@@ -103,15 +167,9 @@ impl TriangleScene {
     /// # Errors
     ///
     /// Slices of different lengths, a ray that is not as [`ShadowRay`] says, an excluded triangle that is not there,
-    /// or whatever Embree reports. The answers then mean nothing.
-    pub fn occluded(
-        &self,
-        rays: &[ShadowRay],
-        packet: PacketWidth,
-        coherence: Coherence,
-        answers: &mut [bool],
-    ) -> Result<()> {
-        self.occluded_checked(CheckedRays::new(rays)?, packet, coherence, answers)
+    /// streams where there are none, or whatever Embree reports. The answers then mean nothing.
+    pub fn occluded(&self, rays: &[ShadowRay], options: QueryOptions, answers: &mut [bool]) -> Result<()> {
+        self.occluded_checked(CheckedRays::new(rays)?, options, answers)
     }
 
     /// As [`occluded`](TriangleScene::occluded), for rays that were checked before: nothing but Embree's work and the
@@ -123,22 +181,13 @@ impl TriangleScene {
     pub fn occluded_checked(
         &self,
         CheckedRays(rays): CheckedRays<'_>,
-        packet: PacketWidth,
-        coherence: Coherence,
+        options: QueryOptions,
         answers: &mut [bool],
     ) -> Result<()> {
         if rays.len() != answers.len() {
             return Err(Error::Embree(format!("{} rays have {} answers", rays.len(), answers.len())));
         }
         self.check_excluded(rays)?;
-        let width = match packet {
-            PacketWidth::One => 1,
-            PacketWidth::Sixteen => 16,
-        };
-        let flags = match coherence {
-            Coherence::Coherent => ffi::LB_QUERY_COHERENT,
-            Coherence::Incoherent => 0,
-        };
         // SAFETY: the scene lives as long as `self`; `ShadowRay` is laid out as `LbRay`; there are as many answers as
         // rays, and what the shim writes into them is 0 or 1, which is a `bool`.
         call(|error| unsafe {
@@ -146,8 +195,8 @@ impl TriangleScene {
                 self.as_ptr(),
                 rays.as_ptr().cast(),
                 rays.len(),
-                width,
-                flags,
+                options.grouping_code(),
+                options.flags(),
                 answers.as_mut_ptr().cast(),
                 error,
             )

@@ -4,16 +4,9 @@ use std::ptr;
 
 use super::{call, ffi};
 use crate::Error;
-use crate::embree::{
-    BuildQuality, Coherence, Device, PacketWidth, Receiver, Robustness, SceneOptions, ShadowRay,
-    TriangleScene,
-};
+use crate::embree::{Device, EmbreeMode, SceneOptions, ShadowRay, TriangleScene};
 
-const OPTIONS: SceneOptions = SceneOptions {
-    robustness: Robustness::Robust,
-    quality: BuildQuality::Medium,
-    receiver: Receiver::Excluded,
-};
+const OPTIONS: SceneOptions = EmbreeMode::ORACLE.scene;
 
 /// An error that Embree itself raises must come back in Embree's words, from the call that caused it, and once.
 #[test]
@@ -38,16 +31,29 @@ fn embrees_own_errors_come_back() {
     assert_eq!(ignored, 0, "a scene that failed or was dropped holds memory");
 }
 
-/// A packet width that the shim has no loop for is refused instead of leaving answers unwritten.
+/// Rays grouped as the shim has no loop for are refused instead of leaving answers unwritten.
 #[test]
-fn unknown_packet_widths_are_refused() {
+fn unknown_groupings_are_refused() {
     let device = Device::new(1).unwrap();
     let scene = TriangleScene::new(&device, &[[0.0; 3]; 3], &[[0, 1, 2]], OPTIONS).unwrap();
-    // SAFETY: no ray is read and no answer is written, since there are none.
-    let asked = call(|error| unsafe {
-        ffi::lb_scene_occluded(scene.as_ptr(), ptr::dangling(), 0, 5, 0, ptr::dangling_mut(), error)
-    });
-    assert!(matches!(asked, Err(Error::Embree(text)) if text.contains("packets")));
+    for grouping in [0, 2, 5, 32, 255, 257, u32::MAX] {
+        // SAFETY: no ray is read and no answer is written, since there are none.
+        let asked = call(|error| unsafe {
+            ffi::lb_scene_occluded(
+                scene.as_ptr(),
+                ptr::dangling(),
+                0,
+                grouping,
+                0,
+                ptr::dangling_mut(),
+                error,
+            )
+        });
+        assert!(
+            matches!(asked, Err(Error::Embree(text)) if text.contains("1, 4, 8 or 16 rays")),
+            "{grouping}"
+        );
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -96,27 +102,38 @@ mod float_control {
                 excluded: i,
             })
             .collect();
-        for value in [DEFAULT, DEFAULT | FLUSH_TO_ZERO, DEFAULT | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO] {
+        let words = [
+            DEFAULT,
+            DEFAULT | FLUSH_TO_ZERO,
+            DEFAULT | DENORMALS_ARE_ZERO,
+            DEFAULT | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO,
+        ];
+        for value in words {
             let check = |what: &str, action: &mut dyn FnMut()| {
                 assert_eq!(left_by(value, action), value, "{what} with {value:#x}");
             };
             let mut device = None;
             check("a device", &mut || device = Some(Device::new(2).unwrap()));
             let device = device.unwrap();
-            let mut scene = None;
-            check("a scene", &mut || {
-                scene = Some(TriangleScene::new(&device, &vertices, &triangles, OPTIONS).unwrap());
-            });
-            let scene = scene.unwrap();
-            let mut answers = vec![false; rays.len()];
-            for packet in [PacketWidth::One, PacketWidth::Sixteen] {
-                check("a query", &mut || {
-                    scene.occluded(&rays, packet, Coherence::Coherent, &mut answers).unwrap();
+            for mode in EmbreeMode::all() {
+                let mut scene = None;
+                check("a scene", &mut || {
+                    scene = Some(TriangleScene::new(&device, &vertices, &triangles, mode.scene).unwrap());
                 });
+                let scene = scene.unwrap();
+                let mut answers = vec![false; rays.len()];
+                let mut asked = Ok(());
+                check(&mode.to_string(), &mut || {
+                    asked = scene.occluded(&rays, mode.query, &mut answers);
+                });
+                // A mode that is refused leaves the word too.
+                assert_eq!(asked.is_ok(), mode.expect_in(&device).is_ok(), "{mode}");
+                if asked.is_ok() {
+                    assert!(answers.contains(&true) && answers.contains(&false), "{mode}");
+                }
+                check("the end of a scene", &mut || drop(scene_of(&device)));
             }
-            assert!(answers.contains(&true) && answers.contains(&false));
-            check("the end of a scene", &mut || drop(scene_of(&device)));
-            let mut parts = Some((scene, device));
+            let mut parts = Some((scene_of(&device), device));
             check("the end of everything", &mut || drop(parts.take()));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::validation::{TesterReport, Totals, Validation, WrongPixel};
 use crate::film::grouped;
-use crate::shadow::{Counters, REGISTRY};
+use crate::shadow::{Counters, testers};
 use crate::verdict::{Cause, TesterRun};
 use crate::visibility::FirstHits;
 use std::fmt::Write;
@@ -41,9 +41,7 @@ pub fn verdict_table(report: &Validation) -> String {
         rows(&mut text, &|name| report.totals.testers.get(name));
     }
     text.push_str(&summary(&report.totals));
-    for (name, tester) in &report.totals.testers {
-        text.push_str(&causes(name, tester));
-    }
+    text.push_str(&causes(&report.totals));
     let wrong = report.lights.iter().find_map(|light| Some((light, light.wrong_pixels.first()?)));
     if let Some((light, WrongPixel { pixel: [x, y], .. })) = wrong {
         let _ = writeln!(
@@ -59,17 +57,18 @@ pub fn verdict_table(report: &Validation) -> String {
 }
 
 fn rows<'a>(text: &mut String, report: &dyn Fn(&str) -> Option<&'a TesterReport>) {
+    let rows: Vec<_> = testers().filter_map(|entry| Some((entry.name, report(entry.name)?))).collect();
+    // Modes of Embree have long names; a table without them is as wide as ever.
+    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0).max(14);
     let _ = writeln!(
         text,
-        "  {:<14} {:>9} {:>9} {:>10} {:>11} {:>9} {:>7} {:>9}",
+        "  {:<width$} {:>9} {:>9} {:>10} {:>11} {:>9} {:>7} {:>9}",
         "tester", "build ms", "ns/query", "memory", "false shadow", "false light", "wrong", "undecided"
     );
-    for entry in REGISTRY {
-        let Some(t) = report(entry.name) else { continue };
+    for (name, t) in rows {
         let _ = writeln!(
             text,
-            "  {:<14} {:>9.1} {:>9.1} {:>10} {:>12} {:>11} {:>7} {:>9}",
-            entry.name,
+            "  {name:<width$} {:>9.1} {:>9.1} {:>10} {:>12} {:>11} {:>7} {:>9}",
             t.build_seconds * 1e3,
             t.ns_per_query,
             bytes(t.bytes),
@@ -99,9 +98,27 @@ fn summary(totals: &Totals) -> String {
     }
 }
 
-/// What a tester's wrong answers are put down to, if there are any.
-fn causes(name: &str, tester: &TesterReport) -> String {
-    let Some(causes) = tester.causes.filter(|_| tester.counts.wrong > 0) else { return String::new() };
+/// What wrong answers are put down to: a line for all testers of which the same can be said, in the order of the
+/// first.
+fn causes(totals: &Totals) -> String {
+    let mut said: Vec<(String, Vec<&str>)> = Vec::new();
+    for entry in testers() {
+        let Some(causes) = totals.testers.get(entry.name).and_then(causes_of) else { continue };
+        match said.iter_mut().find(|(same, _)| *same == causes) {
+            Some((_, names)) => names.push(entry.name),
+            None => said.push((causes, vec![entry.name])),
+        }
+    }
+    let line = |(causes, names): (String, Vec<&str>)| match names[..] {
+        [name] => format!("{name} is wrong {causes}\n"),
+        [first, second] => format!("{first} and {second} are wrong {causes} each\n"),
+        _ => format!("{} and {} other testers are wrong {causes} each\n", names[0], names.len() - 1),
+    };
+    said.into_iter().map(line).collect()
+}
+
+fn causes_of(tester: &TesterReport) -> Option<String> {
+    let causes = tester.causes.filter(|_| tester.counts.wrong > 0)?;
     let parts = [
         (causes.epsilon, Cause::Epsilon),
         (causes.input_rounding, Cause::InputRounding),
@@ -110,7 +127,7 @@ fn causes(name: &str, tester: &TesterReport) -> String {
     let parts = parts.into_iter().filter(|part| part.0 > 0);
     let parts: Vec<_> =
         parts.map(|(count, cause)| format!("{} by {}", grouped(count), cause.name())).collect();
-    format!("{name} is wrong {}\n", parts.join(", "))
+    Some(parts.join(", "))
 }
 
 /// What was built and what every tester did, for `--stats`: runs with the name of their light.

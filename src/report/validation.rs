@@ -40,6 +40,10 @@ pub struct EmbreeFacts {
     pub isa: String,
     /// Share of the segment left out at both ends.
     pub epsilon: f32,
+    /// Whether it takes streams of rays; modes with `stream` exist only then.
+    pub streams: bool,
+    /// Whether modes with `ftz` differ from those without.
+    pub flushes_denormals: bool,
 }
 
 /// One light's verdicts.

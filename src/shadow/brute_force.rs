@@ -12,7 +12,7 @@ use crate::visibility::SurfacePoint;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "brute-force",
     basis: Basis::Exact,
-    build: |input| Ok(Box::new(BruteForce::new(input, InstructionSet::best()))),
+    build: &|input| Ok(Box::new(BruteForce::new(input, InstructionSet::best()))),
     expected_tests: |casters, queries| casters * queries,
 };
 

@@ -1,36 +1,55 @@
 //! Debian's Embree as oracle and as rival.
 //!
-//! Both trace a float ray from the rounded point towards the light, as a renderer would, so part of their
-//! error is the rounding of their input. `embree` is the oracle: a robust scene, the receiving triangle
+//! It traces a float ray from the rounded point towards the light, as a renderer would, so part of its
+//! error is the rounding of its input. `embree` is the oracle: a robust scene, the receiving triangle
 //! excluded by a filter. `embree-fast` is the rival as renderers run it: a fast scene, no filter, nothing
-//! between it and its speed.
+//! between it and its speed. Every other [`EmbreeMode`] is a tester by its own name ([`MODES`]).
+//!
+//! The rays are made within the time that is taken, by the same code in the same portions for every mode.
+//! Each tester has a device and a scene of its own, so that what a mode takes to build is its own too.
 
-use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry, TracedRay};
-use crate::embree::{
-    BuildQuality, Coherence, Device, PacketWidth, Receiver, Robustness, SceneOptions, ShadowRay,
-    TriangleScene,
-};
+use super::{Basis, Build, BuildInput, Counters, ShadowTester, TesterEntry, TracedRay};
+use crate::embree::{Device, EmbreeMode, QueryOptions, Receiver, ShadowRay, TriangleScene};
 use crate::error::Result;
 use crate::geometry::LightPosition;
 use crate::scene::{PrimitiveIndex, Scene, Triangle};
 use crate::visibility::SurfacePoint;
 use glam::Vec3;
+use std::sync::LazyLock;
 
 /// `embree` in the registry.
 pub const ROBUST: TesterEntry = TesterEntry {
     name: "embree",
     basis: Basis::Measured,
-    build: |input| Ok(Box::new(Embree::new(input, Robustness::Robust, Receiver::Excluded)?)),
-    expected_tests: |_, queries| 10.0 * queries,
+    build: &|input| Ok(Box::new(Embree::new(input, EmbreeMode::ORACLE)?)),
+    expected_tests,
 };
 
 /// `embree-fast` in the registry.
 pub const FAST: TesterEntry = TesterEntry {
     name: "embree-fast",
     basis: Basis::Measured,
-    build: |input| Ok(Box::new(Embree::new(input, Robustness::Fast, Receiver::Included)?)),
-    expected_tests: |_, queries| 10.0 * queries,
+    build: &|input| Ok(Box::new(Embree::new(input, EmbreeMode::RIVAL)?)),
+    expected_tests,
 };
+
+/// A tester for each mode of Embree, by the mode's name, in the order of [`EmbreeMode::all`].
+pub static MODES: LazyLock<Vec<TesterEntry>> = LazyLock::new(|| EmbreeMode::all().map(entry).collect());
+
+/// Name and closure are made once and live as long as the program, as those of any other entry do.
+fn entry(mode: EmbreeMode) -> TesterEntry {
+    let build: Box<Build> = Box::new(move |input| Ok(Box::new(Embree::new(input, mode)?)));
+    TesterEntry {
+        name: mode.to_string().leak(),
+        basis: Basis::Measured,
+        build: Box::leak(build),
+        expected_tests,
+    }
+}
+
+fn expected_tests(_casters: f64, queries: f64) -> f64 {
+    10.0 * queries
+}
 
 /// A direction brought near length 1 by a power of two, if it is so long or short that Embree would refuse it
 /// or lose it, and what it was divided by.
@@ -61,9 +80,13 @@ fn casting_indices(scene: &Scene) -> Vec<u32> {
 /// light is infinitely far away, it is a share of the diameter of what casts, and at the near end only.
 pub const USUAL_EPSILON: f32 = 1e-4;
 
+/// Rays that are made and asked at a time, in every mode.
+const RAYS: usize = 256;
+
 /// An Embree scene and one light.
 pub struct Embree {
     scene: TriangleScene,
+    query: QueryOptions,
     light: LightPosition,
     epsilon: f32,
     /// Index of each triangle of the scene among those that Embree has, if it does not have all.
@@ -77,19 +100,26 @@ impl Embree {
     /// Builds Embree's hierarchy over all triangles that cast.
     ///
     /// # Errors
-    /// Whatever Embree reports.
-    pub fn new(input: &BuildInput, robustness: Robustness, receiver: Receiver) -> Result<Embree> {
+    /// A mode that this Embree lacks, or whatever it reports.
+    pub fn new(input: &BuildInput, mode: EmbreeMode) -> Result<Embree> {
         let device = Device::new(input.embree.threads)?;
+        mode.expect_in(&device)?;
         let vertices: Vec<[f32; 3]> = input.scene.vertices.iter().map(|v| v.to_array()).collect();
         let casts = |t: &&Triangle| input.scene.objects[t.object as usize].shadowing.casts;
         let triangles: Vec<[u32; 3]> =
             input.scene.triangles.iter().filter(casts).map(|t| t.vertices).collect();
-        let options = SceneOptions { robustness, quality: BuildQuality::Medium, receiver };
-        let scene = TriangleScene::new(&device, &vertices, &triangles, options)?;
+        let scene = TriangleScene::new(&device, &vertices, &triangles, mode.scene)?;
         let casting = (triangles.len() < input.scene.triangles.len()).then(|| casting_indices(input.scene));
         let (low, high) = input.index.bounds;
-        let diameter = (high * 0.5 - low * 0.5).length() * 2.0;
-        Ok(Embree { scene, light: input.light, epsilon: input.embree.epsilon, casting, receiver, diameter })
+        Ok(Embree {
+            scene,
+            query: mode.query,
+            light: input.light,
+            epsilon: input.embree.epsilon,
+            casting,
+            receiver: mode.scene.receiver,
+            diameter: (high * 0.5 - low * 0.5).length() * 2.0,
+        })
     }
 
     /// The ray for a point: not normalised, so that 1 is the light, unless that would be beyond Embree's range.
@@ -135,19 +165,14 @@ impl Embree {
 
 impl ShadowTester for Embree {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        let rays: Vec<Option<ShadowRay>> = points.iter().map(|point| self.shadow_ray(point)).collect();
-        if rays.iter().all(Option::is_some) {
-            let rays: Vec<ShadowRay> = rays.into_iter().flatten().collect();
-            self.scene.occluded(&rays, PacketWidth::Sixteen, Coherence::Coherent, answers)?;
-        } else {
-            answers.fill(false);
-            let asked: Vec<usize> = (0..rays.len()).filter(|&i| rays[i].is_some()).collect();
-            let rays: Vec<ShadowRay> = rays.into_iter().flatten().collect();
-            let mut found = vec![false; rays.len()];
-            self.scene.occluded(&rays, PacketWidth::Sixteen, Coherence::Coherent, &mut found)?;
-            for (i, occluded) in asked.into_iter().zip(found) {
-                answers[i] = occluded;
+        // So few rays that they stay in the first cache, and a multiple of every packet's width.
+        let mut rays = [ShadowRay::EMPTY; RAYS];
+        for (points, answers) in points.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
+            let rays = &mut rays[..points.len()];
+            for (ray, point) in rays.iter_mut().zip(points) {
+                *ray = self.shadow_ray(point).unwrap_or(ShadowRay::EMPTY);
             }
+            self.scene.occluded(rays, self.query, answers)?;
         }
         Ok(Counters::default())
     }

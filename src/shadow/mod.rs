@@ -17,7 +17,7 @@ mod solids;
 mod traced_ray;
 
 pub use counters::Counters;
-pub use registry::{Basis, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find};
+pub use registry::{Basis, Build, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find, testers};
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;

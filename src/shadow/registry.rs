@@ -72,6 +72,9 @@ impl Default for EmbreeSettings {
     }
 }
 
+/// How a tester is built: a closure, because testers that differ in a parameter share the code.
+pub type Build = dyn for<'a> Fn(&BuildInput<'a>) -> Result<Box<dyn ShadowTester + 'a>> + Send + Sync;
+
 /// A tester by name.
 pub struct TesterEntry {
     /// The name on the command line and in reports.
@@ -79,12 +82,12 @@ pub struct TesterEntry {
     /// What its answers rest on.
     pub basis: Basis,
     /// Builds it for one light.
-    pub build: for<'a> fn(&BuildInput<'a>) -> Result<Box<dyn ShadowTester + 'a>>,
+    pub build: &'static Build,
     /// Expected number of triangle tests for a number of casters and queries.
     pub expected_tests: fn(casters: f64, queries: f64) -> f64,
 }
 
-/// All testers; the first is the arbiter.
+/// Testers that are asked unless others are named; the first is the arbiter.
 pub const REGISTRY: &[TesterEntry] = &[
     exact::ENTRY,
     brute_force::ENTRY,
@@ -95,13 +98,29 @@ pub const REGISTRY: &[TesterEntry] = &[
     super::embree::FAST,
 ];
 
+/// What names beside those of the registry look like.
+#[cfg(feature = "embree")]
+const MODE_NAMES: Option<&str> = Some(crate::embree::EmbreeMode::GRAMMAR);
+#[cfg(not(feature = "embree"))]
+const MODE_NAMES: Option<&str> = None;
+
+/// Every tester that has a name: those of [`REGISTRY`], and after them one for each
+/// [`EmbreeMode`](crate::embree::EmbreeMode).
+pub fn testers() -> impl Iterator<Item = &'static TesterEntry> {
+    #[cfg(feature = "embree")]
+    let modes = super::embree::MODES.iter();
+    #[cfg(not(feature = "embree"))]
+    let modes = std::iter::empty();
+    REGISTRY.iter().chain(modes)
+}
+
 /// The tester of a name.
 ///
 /// # Errors
 /// [`Error::Usage`] that lists the names there are.
 pub fn find(name: &str) -> Result<&'static TesterEntry> {
-    REGISTRY.iter().find(|entry| entry.name == name).ok_or_else(|| {
-        let names: Vec<_> = REGISTRY.iter().map(|entry| entry.name).collect();
+    testers().find(|entry| entry.name == name).ok_or_else(|| {
+        let names: Vec<_> = REGISTRY.iter().map(|entry| entry.name).chain(MODE_NAMES).collect();
         let missing = if cfg!(feature = "embree") { "" } else { " (built without the feature `embree`)" };
         Error::Usage(format!("no shadow tester `{name}`{missing}; there are: {}", names.join(", ")))
     })

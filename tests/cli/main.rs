@@ -1,5 +1,6 @@
 //! The program as people run it: its options, what it writes where, and how it exits.
 
+mod embree_modes;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
 mod hostile;

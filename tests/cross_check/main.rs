@@ -1,10 +1,12 @@
-//! Every tester of the registry over the same queries, one by one, against the definition in integers.
+//! Every tester that has a name over the same queries, one by one, against the definition in integers.
 
 mod cases;
+#[cfg(feature = "embree")]
+mod embree;
 mod random;
 mod runner;
 
-use lightbuffer::shadow::{Basis, Culling, REGISTRY, Resolution, TesterEntry, find};
+use lightbuffer::shadow::{Basis, Culling, Resolution, TesterEntry, find, testers};
 use runner::{Asked, Setting, ask};
 
 /// Resolutions from a single cell a face to many more than there are triangles.
@@ -24,7 +26,7 @@ fn every_exact_tester_is_right_in_every_case_at_every_resolution() {
             "{}: nothing to tell apart",
             case.name
         );
-        for entry in REGISTRY.iter().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
             for resolution in RESOLUTIONS {
                 let answers = ask(entry, &asked, setting(resolution));
                 asked.assert_equal(&answers, &truth, &format!("{} at R = {resolution}", entry.name));
@@ -61,32 +63,11 @@ fn far_sides_are_culled_unless_the_light_is_inside() {
     assert!(ring[4] <= 10, "inside the ring, only the box counts: {ring:?}");
 }
 
-#[cfg(feature = "embree")]
-#[test]
-fn embree_answers_every_case_and_is_right_where_no_edge_is_near() {
-    for case in cases::all() {
-        let asked = Asked::of(&case);
-        let truth = asked.plain_truth();
-        for entry in REGISTRY.iter().filter(|entry| entry.basis == Basis::Measured) {
-            let answers = ask(entry, &asked, setting(1));
-            let wrong = answers.iter().zip(&truth).filter(|(a, t)| a != t).count();
-            // Its errors are measured, not forgiven without bound: a broken oracle gets most answers wrong.
-            assert!(
-                wrong * 20 <= truth.len(),
-                "{}: {} wrong {wrong} of {}",
-                case.name,
-                entry.name,
-                truth.len()
-            );
-        }
-    }
-}
-
 #[test]
 fn masks_do_not_depend_on_threads() {
     for case in cases::all() {
         let asked = Asked::of(&case);
-        for entry in REGISTRY.iter().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
             let [one, two] = [1, 2].map(|threads| {
                 let culling = Culling::ClosedSolids;
                 ask(entry, &asked, Setting { resolution: Resolution::Auto, culling, threads })
@@ -102,7 +83,7 @@ fn masks_do_not_depend_on_the_order_of_triangles_or_corners() {
         let asked = Asked::of(&case);
         let turned = cases::turned(&case);
         let again = Asked::of(&turned);
-        for entry in REGISTRY.iter().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
             assert_eq!(
                 asked.by_pixel(&ask(entry, &asked, setting(32))),
                 again.by_pixel(&ask(entry, &again, setting(32))),

@@ -4,7 +4,7 @@ use crate::cases::{Case, lamp, soup, sun};
 use crate::runner::{Asked, Setting, ask};
 use glam::Vec3;
 use lightbuffer::scene::{Camera, ImageSize, Shadowing};
-use lightbuffer::shadow::{Basis, Culling, REGISTRY, Resolution};
+use lightbuffer::shadow::{Basis, Culling, Resolution, testers};
 use proptest::prelude::*;
 
 fn grid_point() -> impl Strategy<Value = Vec3> {
@@ -79,7 +79,7 @@ proptest! {
     ) {
         let asked = Asked::of(&case);
         let truth = asked.plain_truth();
-        for entry in REGISTRY.iter().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
             for culling in [Culling::Off, Culling::ClosedSolids] {
                 let setting = Setting { resolution: Resolution::Cells(resolution), culling, threads: 1 };
                 let answers = ask(entry, &asked, setting);

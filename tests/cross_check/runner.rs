@@ -15,6 +15,9 @@ use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 /// Checksum of the masks of all cases, the same in every build profile.
 pub const RECORDED_CHECKSUM: u64 = 9_087_887_782_721_129_968;
 
+/// The share of a segment that Embree leaves out at both ends.
+pub const EMBREE_EPSILON: f32 = 1e-4;
+
 /// How a tester is built and run.
 #[derive(Clone, Copy)]
 pub struct Setting {
@@ -43,9 +46,21 @@ impl<'a> Asked<'a> {
         BuildInput {
             resolution: setting.resolution,
             culling: setting.culling,
-            embree: EmbreeSettings { threads: setting.threads, ..EmbreeSettings::default() },
+            embree: EmbreeSettings { epsilon: EMBREE_EPSILON, threads: setting.threads },
             ..BuildInput::new(&self.case.scene, &self.index, light)
         }
+    }
+
+    /// The scene of the case.
+    #[cfg(feature = "embree")]
+    pub fn scene(&self) -> &lightbuffer::Scene {
+        &self.case.scene
+    }
+
+    /// All queries with their lights, in the order of answers.
+    #[cfg(feature = "embree")]
+    pub fn queries(&self) -> impl Iterator<Item = (LightPosition, &lightbuffer::SurfacePoint)> {
+        self.lights.iter().flat_map(|(light, queries)| queries.points.iter().map(|point| (*light, point)))
     }
 
     /// The definition: all triangles, all queries, in integers.

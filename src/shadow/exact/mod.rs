@@ -30,7 +30,7 @@ use rayon::prelude::*;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "exact",
     basis: Basis::Truth,
-    build: |input| Ok(Box::new(Arbiter::new(input))),
+    build: &|input| Ok(Box::new(Arbiter::new(input))),
     expected_tests: |_, queries| 100.0 * queries,
 };
 

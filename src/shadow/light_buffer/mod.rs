@@ -35,7 +35,7 @@ use roles::Roles;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "light-buffer",
     basis: Basis::Exact,
-    build: |input| Ok(Box::new(LightBuffer::new(input)?)),
+    build: &|input| Ok(Box::new(LightBuffer::new(input)?)),
     expected_tests: |_, queries| 10.0 * queries,
 };
 
