@@ -30,7 +30,11 @@ struct LbDevice {
 struct LbScene {
     LbDevice *device;
     RTCScene handle;
+    /* Whether rays exclude triangles. */
     bool filtered;
+    /* Whether triangles have holes, and which. */
+    bool has_holes;
+    LbHoles holes;
 };
 
 /* The floating-point control word: MXCSR, or the C environment where there is none. */
@@ -60,7 +64,7 @@ bool lb_choose_denormals(bool flush);
 /* Whether Embree takes streams of rays. */
 bool lb_has_streams(const LbDevice *device);
 
-/* The filter of a scene with LB_SCENE_FILTERED. */
-void lb_exclude_receiver(const struct RTCFilterFunctionNArguments *arguments);
+/* The filter of a scene with LB_SCENE_FILTERED or with holes; the mesh's user data is the LbScene. */
+void lb_reject_hits(const struct RTCFilterFunctionNArguments *arguments);
 
 #endif

@@ -3,6 +3,7 @@
 #include "internal.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdalign.h>
 #include <string.h>
 
@@ -25,20 +26,55 @@ typedef struct QueryContext {
     const uint32_t *excluded;
 } QueryContext;
 
+/* The texel of a row of `size` that shows at a texture coordinate. */
+static uint32_t texel(float coordinate, uint32_t size, uint32_t wrap)
+{
+    const float place = floorf(coordinate * (float)size);
+    if (wrap == LB_WRAP_CLAMP)
+        return place <= 0.0f ? 0 : place >= (float)size ? size - 1 : (uint32_t)place;
+    /* Exact, and below the period in magnitude; what is not a number counts as 0. */
+    const float period = wrap == LB_WRAP_MIRRORED ? 2.0f * (float)size : (float)size;
+    const float rest = fmodf(place, period);
+    const float there = rest < 0.0f ? rest + period : rest;
+    const uint32_t at = there >= 0.0f && there < period ? (uint32_t)there : 0;
+    return at < size ? at : 2 * size - 1 - at;
+}
+
+/* Whether a hit, at Embree's barycentric coordinates, is a hole. */
+static bool is_hole(const LbHoles *holes, uint32_t triangle, float u, float v)
+{
+    const uint32_t index = holes->mask_of[triangle];
+    if (index == LB_NO_MASK)
+        return false;
+    const LbMask *mask = &holes->masks[index];
+    const float *corner = &holes->coordinates[6 * (size_t)triangle];
+    const float w = 1.0f - u - v;
+    const uint32_t column = texel(w * corner[0] + u * corner[2] + v * corner[4], mask->size[0], mask->wrap[0]);
+    const uint32_t row = texel(w * corner[1] + u * corner[3] + v * corner[5], mask->size[1], mask->wrap[1]);
+    const size_t bit = (size_t)row * mask->size[0] + column;
+    return !(mask->there[bit / 64] >> (bit % 64) & 1);
+}
+
 /*
  * Embree may call with any N up to the packet's width, lanes in any order, so a ray is known by its id alone. Rays
  * and hits of N lanes are arrays of 4-byte fields, one after another (rtcore_ray.h has accessors, for C++ only).
  */
-void lb_exclude_receiver(const struct RTCFilterFunctionNArguments *arguments)
+void lb_reject_hits(const struct RTCFilterFunctionNArguments *arguments)
 {
-    enum { RAY_ID_FIELD = 10, HIT_PRIMITIVE_FIELD = 5 };
+    enum { RAY_ID_FIELD = 10, HIT_U_FIELD = 3, HIT_V_FIELD = 4, HIT_PRIMITIVE_FIELD = 5 };
     const QueryContext *context = (const QueryContext *)arguments->context;
+    const LbScene *scene = arguments->geometryUserPtr;
     const unsigned int lanes = arguments->N;
     const unsigned int *ray_id = (const unsigned int *)arguments->ray + RAY_ID_FIELD * lanes;
+    const float *hit = (const float *)arguments->hit;
     const unsigned int *primitive = (const unsigned int *)arguments->hit + HIT_PRIMITIVE_FIELD * lanes;
     for (unsigned int lane = 0; lane < lanes; lane++) {
         /* Only -1 is a lane with a hit; the id of any other lane means nothing. */
-        if (arguments->valid[lane] == -1 && context->excluded[ray_id[lane]] == primitive[lane])
+        if (arguments->valid[lane] != -1)
+            continue;
+        const float u = hit[HIT_U_FIELD * lanes + lane], v = hit[HIT_V_FIELD * lanes + lane];
+        const bool is_excluded = scene->filtered && context->excluded[ray_id[lane]] == primitive[lane];
+        if (is_excluded || (scene->has_holes && is_hole(&scene->holes, primitive[lane], u, v)))
             arguments->valid[lane] = 0;
     }
 }

@@ -223,7 +223,7 @@ static enum RTCBuildQuality build_quality(uint32_t quality)
 
 /* Null if it cannot be made; the caller owns it. */
 static RTCGeometry new_mesh(Call call, LbDevice *device, const float *vertices, size_t vertex_count,
-                            const uint32_t *triangles, size_t triangle_count, uint32_t quality, uint32_t flags)
+                            const uint32_t *triangles, size_t triangle_count, uint32_t quality, LbScene *scene)
 {
     RTCGeometry mesh = rtcNewGeometry(device->handle, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (!mesh) {
@@ -238,17 +238,19 @@ static RTCGeometry new_mesh(Call call, LbDevice *device, const float *vertices, 
     rtcSetGeometryBuildQuality(mesh, build_quality(quality));
     /* The default of Embree 3 is all bits, that of Embree 4 is the lowest. */
     rtcSetGeometryMask(mesh, 0xFFFFFFFFu);
-    if (flags & LB_SCENE_FILTERED) {
+    if (scene->filtered || scene->has_holes) {
         if (!property(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
-            lb_fail(call, "this Embree was built without filter functions, so no receiver can be excluded");
-        rtcSetGeometryOccludedFilterFunction(mesh, lb_exclude_receiver);
+            lb_fail(call, "this Embree was built without filter functions, so no hit can be rejected");
+        rtcSetGeometryUserData(mesh, scene);
+        rtcSetGeometryOccludedFilterFunction(mesh, lb_reject_hits);
     }
     rtcCommitGeometry(mesh);
     return mesh;
 }
 
 uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_count, const uint32_t *triangles,
-                      size_t triangle_count, uint32_t quality, uint32_t flags, LbScene **scene_out, LbError *error)
+                      size_t triangle_count, const LbHoles *holes, uint32_t quality, uint32_t flags, LbScene **scene_out,
+                      LbError *error)
 {
     Call call = lb_begin_call(error);
     *scene_out = NULL;
@@ -259,6 +261,9 @@ uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_cou
     }
     scene->device = device;
     scene->filtered = flags & LB_SCENE_FILTERED;
+    scene->has_holes = holes != NULL;
+    if (holes)
+        scene->holes = *holes;
     scene->handle = rtcNewScene(device->handle);
     if (!scene->handle) {
         lb_fail(call, "no scene");
@@ -268,7 +273,7 @@ uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_cou
     rtcSetSceneBuildQuality(scene->handle, build_quality(quality));
     if (flags & LB_SCENE_ROBUST)
         rtcSetSceneFlags(scene->handle, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry mesh = new_mesh(call, device, vertices, vertex_count, triangles, triangle_count, quality, flags);
+    RTCGeometry mesh = new_mesh(call, device, vertices, vertex_count, triangles, triangle_count, quality, scene);
     if (mesh) {
         rtcAttachGeometry(scene->handle, mesh);
         rtcReleaseGeometry(mesh);

@@ -24,6 +24,26 @@ enum {
     LB_SCENE_FILTERED = 2
 };
 
+/* `LbHoles.mask_of` of a triangle without holes. */
+#define LB_NO_MASK 0xFFFFFFFFu
+
+/* How a mask goes on beyond its sides. */
+enum { LB_WRAP_REPEAT = 0, LB_WRAP_MIRRORED = 1, LB_WRAP_CLAMP = 2 };
+
+/* Where triangles are there: a bit a texel, row by row, the lowest bit of each word first. */
+typedef struct LbMask {
+    uint32_t size[2];
+    uint32_t wrap[2];
+    const uint64_t *there;
+} LbMask;
+
+/* Masks by triangle. `coordinates` holds 6 floats a triangle: u and v of each corner. */
+typedef struct LbHoles {
+    const uint32_t *mask_of;
+    const float *coordinates;
+    const LbMask *masks;
+} LbHoles;
+
 /* Build quality. */
 enum { LB_BUILD_LOW = 0, LB_BUILD_MEDIUM = 1, LB_BUILD_HIGH = 2 };
 
@@ -91,11 +111,13 @@ uint32_t lb_device_bytes(LbDevice *device, int64_t *bytes, LbError *error);
 
 /*
  * Builds a scene of one mesh. `vertices` holds 3 floats a vertex and one more float at the very end, because Embree
- * reads 16 bytes at the last vertex; `triangles` holds 3 indices a triangle, all below `vertex_count`. Both must stay
- * where they are, unchanged, until lb_scene_free.
+ * reads 16 bytes at the last vertex; `triangles` holds 3 indices a triangle, all below `vertex_count`. `holes` may be null;
+ * a ray then passes through no triangle. What it points at and the two arrays must stay where they are, unchanged, until
+ * lb_scene_free.
  */
 uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_count, const uint32_t *triangles,
-                      size_t triangle_count, uint32_t quality, uint32_t flags, LbScene **scene, LbError *error);
+                      size_t triangle_count, const LbHoles *holes, uint32_t quality, uint32_t flags, LbScene **scene,
+                      LbError *error);
 uint32_t lb_scene_free(LbScene *scene, LbError *error);
 
 /*

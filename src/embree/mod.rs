@@ -15,6 +15,7 @@
 
 mod device;
 mod ffi;
+mod holes;
 mod mode;
 mod query;
 mod scene;
@@ -23,6 +24,7 @@ mod scene;
 mod tests;
 
 pub use device::Device;
+pub use holes::{HoleMask, HoleWrap, Holes};
 pub use mode::EmbreeMode;
 pub use query::{CheckedRays, Coherence, Denormals, Grouping, PacketWidth, QueryOptions, ShadowRay};
 pub use scene::{BuildQuality, Receiver, Robustness, SceneOptions, TriangleScene};

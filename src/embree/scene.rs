@@ -2,7 +2,7 @@
 
 use std::ptr::{self, NonNull};
 
-use super::{Device, call, ffi};
+use super::{Device, Holes, call, ffi};
 use crate::{Error, Result};
 
 /// Embree leaves out, and says nothing of, triangles with a coordinate of this magnitude or more.
@@ -53,6 +53,8 @@ pub struct TriangleScene {
     /// these buffers, so they live, unchanged, until the scene is freed.
     vertices: Vec<f32>,
     triangles: Vec<[u32; 3]>,
+    /// What the filter looks at; Embree refers to it too.
+    _holes: Option<Holes>,
     receiver: Receiver,
     /// What the device's memory grew by.
     embree_bytes: usize,
@@ -78,7 +80,27 @@ impl TriangleScene {
         triangles: &[[u32; 3]],
         options: SceneOptions,
     ) -> Result<TriangleScene> {
+        TriangleScene::with_holes(device, vertices, triangles, None, options)
+    }
+
+    /// As [`new`](TriangleScene::new), with triangles that rays pass through where they have holes. Holes register
+    /// a filter function, which slows every query of the scene.
+    ///
+    /// # Errors
+    ///
+    /// As there, and holes of another number of triangles.
+    pub fn with_holes(
+        device: &Device,
+        vertices: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        holes: Option<Holes>,
+        options: SceneOptions,
+    ) -> Result<TriangleScene> {
         check_mesh(vertices, triangles)?;
+        if let Some(holes) = holes.as_ref().filter(|holes| holes.triangles() != triangles.len()) {
+            let (have, want) = (holes.triangles(), triangles.len());
+            return Err(Error::Embree(format!("holes of {have} triangles for {want}")));
+        }
         let mut padded = Vec::with_capacity(3 * vertices.len() + 1);
         padded.extend_from_slice(vertices.as_flattened());
         padded.push(0.0);
@@ -86,10 +108,11 @@ impl TriangleScene {
 
         let memory = device.lock_memory();
         let before = device.bytes()?;
+        let view = holes.as_ref().map(Holes::as_ffi);
         let mut scene = ptr::null_mut();
         // SAFETY: the device lives; the buffers hold as many elements as said, padding included, all indices are in
-        // range, and they move into the scene beside the handle that refers to their heap memory; the two pointers to
-        // be filled are valid for writes.
+        // range, and they move into the scene beside the handle that refers to their heap memory, as the holes do, which
+        // are checked; the two pointers to be filled are valid for writes.
         call(|error| unsafe {
             ffi::lb_scene_new(
                 device.as_ptr(),
@@ -97,6 +120,7 @@ impl TriangleScene {
                 vertices.len() / 3,
                 triangles.as_flattened().as_ptr(),
                 triangles.len(),
+                view.as_ref().map_or(ptr::null(), ptr::from_ref),
                 options.quality.code(),
                 options.flags(),
                 &mut scene,
@@ -110,6 +134,7 @@ impl TriangleScene {
             scene,
             vertices,
             triangles,
+            _holes: holes,
             receiver: options.receiver,
             embree_bytes,
             device: device.clone(),

@@ -19,7 +19,18 @@ fn embrees_own_errors_come_back() {
     // SAFETY: Embree refuses an address that is not a multiple of 4 before it reads anything there, and the buffer
     // would be long enough anyway.
     let made = call(|error| unsafe {
-        ffi::lb_scene_new(device.as_ptr(), misaligned, 3, triangles.as_ptr(), 1, 1, 0, &mut scene, error)
+        ffi::lb_scene_new(
+            device.as_ptr(),
+            misaligned,
+            3,
+            triangles.as_ptr(),
+            1,
+            ptr::null(),
+            1,
+            0,
+            &mut scene,
+            error,
+        )
     });
     let Err(Error::Embree(text)) = made else { panic!("{made:?}") };
     assert!(text.starts_with("invalid operation: "), "{text}");

@@ -111,6 +111,11 @@ impl AlphaMask {
         self.is_opaque(self.wrap[0].texel(column, self.width), self.wrap[1].texel(row, self.height))
     }
 
+    /// A bit a texel, row by row from the top, the lowest bit of each word first; 1 is opaque.
+    pub fn words(&self) -> &[u64] {
+        &self.opaque
+    }
+
     /// A hash of texels, size and wrapping.
     pub(super) fn hash(&self) -> u64 {
         let wrap = self.wrap.map(|wrap| wrap as u64);

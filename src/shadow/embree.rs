@@ -9,10 +9,12 @@
 //! Each tester has a device and a scene of its own, so that what a mode takes to build is its own too.
 
 use super::{Basis, Build, BuildInput, Counters, ShadowTester, TesterEntry, TracedRay};
-use crate::embree::{Device, EmbreeMode, QueryOptions, Receiver, ShadowRay, TriangleScene};
+use crate::embree::{
+    Device, EmbreeMode, HoleMask, HoleWrap, Holes, QueryOptions, Receiver, ShadowRay, TriangleScene,
+};
 use crate::error::Result;
 use crate::geometry::LightPosition;
-use crate::scene::{PrimitiveIndex, Scene, Triangle};
+use crate::scene::{AlphaMask, PrimitiveIndex, Scene, Triangle, Wrap};
 use crate::visibility::SurfacePoint;
 use glam::Vec3;
 use std::sync::LazyLock;
@@ -76,6 +78,31 @@ fn casting_indices(scene: &Scene) -> Vec<u32> {
     scene.triangles.iter().map(index).collect()
 }
 
+/// The holes of all triangles that cast, if there are any.
+fn holes(scene: &Scene) -> Result<Option<Holes>> {
+    if scene.alpha_masks.is_empty() {
+        return Ok(None);
+    }
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => HoleWrap::Repeat,
+        Wrap::MirroredRepeat => HoleWrap::MirroredRepeat,
+        Wrap::ClampToEdge => HoleWrap::ClampToEdge,
+    };
+    let mask = |mask: &AlphaMask| HoleMask {
+        size: [mask.width, mask.height],
+        wrap: mask.wrap.map(wrap),
+        there: mask.words().to_vec(),
+    };
+    let casting = (0..scene.triangles.len() as u32).filter(|&t| scene.object(t).shadowing.casts);
+    let (mask_of, coordinates) = casting
+        .map(|t| {
+            let mask = scene.material(t).coverage.mask().unwrap_or(Holes::NONE);
+            (mask, scene.masked(t).map_or([[0.0; 2]; 3], |masked| masked.coordinates))
+        })
+        .unzip();
+    Holes::new(mask_of, coordinates, scene.alpha_masks.iter().map(mask).collect()).map(Some)
+}
+
 /// The epsilon that renderers usually give it, as a share of the segment (pbrt's shadow epsilon). Where the
 /// light is infinitely far away, it is a share of the diameter of what casts, and at the near end only.
 pub const USUAL_EPSILON: f32 = 1e-4;
@@ -108,7 +135,8 @@ impl Embree {
         let casts = |t: &&Triangle| input.scene.objects[t.object as usize].shadowing.casts;
         let triangles: Vec<[u32; 3]> =
             input.scene.triangles.iter().filter(casts).map(|t| t.vertices).collect();
-        let scene = TriangleScene::new(&device, &vertices, &triangles, mode.scene)?;
+        let scene =
+            TriangleScene::with_holes(&device, &vertices, &triangles, holes(input.scene)?, mode.scene)?;
         let casting = (triangles.len() < input.scene.triangles.len()).then(|| casting_indices(input.scene));
         let (low, high) = input.index.bounds;
         Ok(Embree {
