@@ -75,7 +75,8 @@ fn the_document_has_the_keys_that_are_promised() {
         assert_eq!(keys(&place["verdicts"]), VERDICTS);
         assert_eq!(keys(&place["testers"]), names());
         for tester in testers(place).values() {
-            assert_eq!(keys(tester), TESTER);
+            let promised = keys(tester).into_iter().filter(|key| *key != "causes");
+            assert_eq!(promised.collect::<Vec<_>>(), TESTER);
         }
     }
 }

@@ -331,8 +331,8 @@ fn lights_and_cameras_of_impossible_numbers() {
     spoilt(light(json!({ "type": "point", "range": 0 })), &["light 0: expected a range above 0"]);
     spoilt(light(json!({ "type": "lamp\n" })), &["found `lamp\\n`"]);
     let cone = |inner: f64, outer: f64| json!({ "type": "spot", "spot": { "innerConeAngle": inner, "outerConeAngle": outer } });
-    for (inner, outer) in [(0.5, 0.5), (0.6, 0.5), (-0.1, 0.5), (0.0, 0.0), (0.0, 1.6), (-2.0, -1.0)] {
-        let words = format!("innerConeAngle < outerConeAngle <= pi/2, found {inner} and {outer}");
+    for (inner, outer) in [(0.6, 0.5), (-0.1, 0.5), (0.0, 0.0), (0.0, 1.6), (-2.0, -1.0)] {
+        let words = format!("innerConeAngle <= outerConeAngle <= pi/2, found {inner} and {outer}");
         spoilt(light(cone(inner, outer)), &["node 0 `corner`: light 0: expected 0 <= ", &words]);
     }
     for kind in ["spot", "directional"] {

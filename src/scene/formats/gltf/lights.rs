@@ -78,7 +78,7 @@ fn cosines(cone: &SpotCone) -> Result<[f32; 2], String> {
     const WIDEST: f64 = std::f32::consts::FRAC_PI_2 as f64;
     let inner = cone.inner_cone_angle.unwrap_or(0.0);
     let outer = cone.outer_cone_angle.unwrap_or(FRAC_PI_4);
-    if !(0.0 <= inner && inner <= outer && outer <= FRAC_PI_2.max(WIDEST)) {
+    if !(0.0 <= inner && inner <= outer && outer > 0.0 && outer <= FRAC_PI_2.max(WIDEST)) {
         return Err(format!(
             "expected 0 <= innerConeAngle <= outerConeAngle <= pi/2, found {inner} and {outer}"
         ));
