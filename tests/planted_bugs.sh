@@ -98,11 +98,6 @@ plant near-sides-culled src/shadow/solids.rs \
     every_exact_tester_is_right_in_every_case_at_every_resolution \
     all_exact_testers_agree_with_the_definition_on_random_scenes
 
-plant copies-culled src/shadow/solids.rs \
-    'if before != triangle {' 'if before > triangle {' \
-    far_sides_are_culled_unless_the_light_is_inside \
-    every_exact_tester_is_right_in_every_case_at_every_resolution
-
 plant crossing-meshes-are-solids src/geometry/solid/mod.rs \
     'Search::Found => return Err(Refusal::Crossing),' 'Search::Found => {}' \
     meshes_that_cross_themselves_are_refused

@@ -54,7 +54,7 @@ impl SceneIndex {
 }
 
 /// The same for triangles with the same three corners in any order.
-pub(super) fn key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
+fn key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
     // Adding zero makes both zeros one.
     let mut corners = scene.corners(triangle).map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
     corners.sort_unstable();

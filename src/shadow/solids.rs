@@ -6,13 +6,12 @@ use crate::geometry::solid::{self, Refusal, Solid};
 use crate::geometry::{LightPosition, Sign};
 use crate::scene::{Coverage, PrimitiveIndex, Scene};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// The closed solids among what casts.
 pub struct Solids {
     solids: Vec<Solid>,
-    /// For each triangle of the scene its solid. None for those that have an exact copy: the triangle that is
-    /// cast for both may be another object's, and on the near side of that.
+    /// For each triangle of the scene its solid.
     of: Vec<Option<u32>>,
     /// Parts of objects that are no solids, counted by the reason.
     pub refused: BTreeMap<Refusal, usize>,
@@ -52,19 +51,7 @@ impl Solids {
                 found.of[triangle as usize] = numbers[part as usize];
             }
         }
-        found.leave_out_copies(scene);
         found
-    }
-
-    fn leave_out_copies(&mut self, scene: &Scene) {
-        let mut first = HashMap::with_capacity(scene.triangles.len());
-        for triangle in (0..scene.triangles.len() as u32).filter(|&t| scene.object(t).shadowing.casts) {
-            let before = *first.entry(super::scene_index::key(scene, triangle)).or_insert(triangle);
-            if before != triangle {
-                self.of[before as usize] = None;
-                self.of[triangle as usize] = None;
-            }
-        }
     }
 
     /// Number of solids.
@@ -85,7 +72,9 @@ impl Solids {
 /// triangle and past all edges, run segments that begin outside and arrive inside, so each of them enters the
 /// solid before, through a triangle whose outer side the light is on. As they come nearer to the first one,
 /// a triangle that they enter through again and again is reached by that too: not in the light, which is on
-/// no triangle, and not behind the point. So whatever lies beyond the point is in the shadow of a near side.
+/// no triangle, and not behind the point. If that one is left out too, because it is cast for an exact copy
+/// on the far side of another solid, the segments beside entered that solid still before, and so on. So
+/// whatever lies beyond the point is in the shadow of a near side that is cast.
 pub struct FarSides<'a> {
     solids: &'a Solids,
     light: LightPosition,

@@ -58,8 +58,8 @@ fn far_sides_are_culled_unless_the_light_is_inside() {
     assert!(boxes.iter().all(|n| (12..=18).contains(n) && n % 2 == 0), "{boxes:?}");
     let inside = culled("a light inside a box with a window");
     assert_eq!(inside, [10, 6], "of the inner box alone");
-    // Hidden behind the others, whichever is cast for all of them.
-    assert_eq!(culled("a thousand copies of one box"), [0]);
+    // Whichever of the copies is cast.
+    assert_eq!(culled("a thousand copies of one box"), [6]);
     let ring = culled("a ring through a box, with lights in the hole, on the ring and inside it");
     assert!(ring[0] > 40 && ring[1] > 40, "{ring:?}");
     assert!(ring[4] <= 10, "inside the ring, only the box counts: {ring:?}");
