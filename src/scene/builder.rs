@@ -66,8 +66,35 @@ impl ObjectInput {
 /// Collects objects, materials, lights and cameras, and checks them.
 pub struct SceneBuilder {
     scene: Scene,
-    /// Names that lights have, each with the number that its next namesake tries first.
-    light_names: HashMap<String, u32>,
+    light_names: Names,
+    camera_names: Names,
+    /// What was dropped in scenes that were put into this one; they have said so themselves.
+    already_said: Dropped,
+}
+
+/// Names that are taken, each with the number that its next namesake tries first.
+#[derive(Default)]
+struct Names(HashMap<String, u32>);
+
+impl Names {
+    fn of<'a>(taken: impl Iterator<Item = &'a String>) -> Names {
+        Names(taken.map(|name| (name.clone(), 2)).collect())
+    }
+
+    /// The name, with a number if it is taken.
+    fn take(&mut self, wanted: String) -> String {
+        let mut name = wanted.clone();
+        if let Some(&first) = self.0.get(&wanted) {
+            let mut number = first;
+            while self.0.contains_key(&name) {
+                name = format!("{wanted}-{number}");
+                number += 1;
+            }
+            self.0.insert(wanted, number);
+        }
+        self.0.insert(name.clone(), 2);
+        name
+    }
 }
 
 impl SceneBuilder {
@@ -78,14 +105,35 @@ impl SceneBuilder {
 
     /// Continues a scene that is already there.
     pub fn extend(scene: Scene) -> SceneBuilder {
-        let light_names = scene.lights.iter().map(|light| (light.name.clone(), 2)).collect();
-        SceneBuilder { scene, light_names }
+        let light_names = Names::of(scene.lights.iter().map(|light| &light.name));
+        let camera_names = Names::of(scene.cameras.iter().map(|camera| &camera.name));
+        SceneBuilder { scene, light_names, camera_names, already_said: Dropped::default() }
     }
 
     /// Adds a material and returns its index.
     pub fn add_material(&mut self, material: Material) -> u32 {
         self.scene.materials.push(material);
         self.scene.materials.len() as u32 - 1
+    }
+
+    /// Adds a material that has already been added once more, with the holes of an alpha mask.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there is no such material.
+    pub(super) fn add_material_with_holes(&mut self, material: u32, mask: u32) -> Result<u32> {
+        let found = self.scene.materials.get(material as usize);
+        let found = found.ok_or_else(|| Error::Usage(format!("no material {material}")))?;
+        let coverage = Coverage::Masked(mask);
+        let painted = Material { coverage, ..found.clone() };
+        Ok(self.add_material(painted))
+    }
+
+    /// Counts what a scene that is put into this one has dropped, and has said among its warnings.
+    pub(super) fn count_dropped(&mut self, dropped: Dropped) {
+        for total in [&mut self.scene.dropped, &mut self.already_said] {
+            total.degenerate = total.degenerate.saturating_add(dropped.degenerate);
+            total.non_finite = total.non_finite.saturating_add(dropped.non_finite);
+        }
     }
 
     /// Adds an alpha mask and returns its index, for [`Coverage::Masked`].
@@ -95,23 +143,15 @@ impl SceneBuilder {
     }
 
     /// Adds a light; a name that is taken gets a number.
-    pub fn add_light(&mut self, mut light: Light) {
-        if let Some(&first) = self.light_names.get(&light.name) {
-            let wanted = light.name.clone();
-            let mut number = first;
-            while self.light_names.contains_key(&light.name) {
-                light.name = format!("{wanted}-{number}");
-                number += 1;
-            }
-            self.light_names.insert(wanted, number);
-        }
-        self.light_names.insert(light.name.clone(), 2);
-        self.scene.lights.push(light);
+    pub fn add_light(&mut self, light: Light) {
+        let name = self.light_names.take(light.name);
+        self.scene.lights.push(Light { name, ..light });
     }
 
-    /// Adds a camera.
+    /// Adds a camera; a name that is taken gets a number.
     pub fn add_camera(&mut self, camera: Camera) {
-        self.scene.cameras.push(camera);
+        let name = self.camera_names.take(camera.name);
+        self.scene.cameras.push(Camera { name, ..camera });
     }
 
     /// Notes something that the file asks for and that is not drawn; the same line is kept once.
@@ -188,7 +228,8 @@ impl SceneBuilder {
 
     /// The finished scene. What was dropped is said among its warnings.
     pub fn finish(mut self) -> Scene {
-        let Dropped { degenerate, non_finite } = self.scene.dropped;
+        let degenerate = self.scene.dropped.degenerate - self.already_said.degenerate;
+        let non_finite = self.scene.dropped.non_finite - self.already_said.non_finite;
         if degenerate > 0 {
             self.warn(format!("dropped {degenerate} triangles of zero area"));
         }

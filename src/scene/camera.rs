@@ -1,6 +1,6 @@
 //! The pinhole camera and its rays.
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 /// Width and height of an image in pixels, both at least 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +74,20 @@ impl Camera {
             tan_half_height: libm::tan(vertical_degrees.to_radians() * 0.5),
             size: None,
         }
+    }
+
+    /// The camera where a transform takes it, or `None` if that leaves no position or no direction to look
+    /// in. Scale and shear are taken out again; field of view and size stay as they are.
+    pub fn transformed(&self, transform: &DAffine3) -> Option<Camera> {
+        let turn = |direction: Vec3| transform.transform_vector3(direction.as_dvec3());
+        let origin = transform.transform_point3(self.origin.as_dvec3()).as_vec3();
+        let forward = turn(self.forward).try_normalize()?;
+        let across = turn(self.right);
+        let right = (across - across.dot(forward) * forward).try_normalize()?;
+        let up = right.cross(forward).as_vec3();
+        let camera =
+            Camera { origin, forward: forward.as_vec3(), right: right.as_vec3(), up, ..self.clone() };
+        origin.is_finite().then_some(camera)
     }
 
     /// Offsets of the image plane at distance 1, in units of `right` and `up`: the centre of pixel

@@ -2,7 +2,7 @@
 
 use crate::geometry::LightPosition;
 use crate::geometry::cone::LightCone;
-use glam::Vec3;
+use glam::{DAffine3, DVec3, Vec3};
 
 /// A light with its name.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,6 +118,26 @@ impl Light {
         }
     }
 
+    /// The light where a transform takes it, each coordinate computed in f64 and rounded once, or `None` if
+    /// that leaves no finite position or no direction. Strength, range and cone stay as they are.
+    pub fn transformed(&self, transform: &DAffine3) -> Option<Light> {
+        let place = |point: Vec3| {
+            let placed = transform.transform_point3(point.as_dvec3()).as_vec3();
+            placed.is_finite().then_some(placed)
+        };
+        let turn = |direction: Vec3| direction_of(transform.transform_vector3(direction.as_dvec3()));
+        let mut light = self.clone();
+        match &mut light.emitter {
+            Emitter::Point(point) => point.position = place(point.position)?,
+            Emitter::Spot(SpotLight { point, cone }) => {
+                point.position = place(point.position)?;
+                cone.axis = turn(cone.axis)?;
+            }
+            Emitter::Directional(light) => light.towards = turn(light.towards)?,
+        }
+        Some(light)
+    }
+
     /// The kind in one word.
     pub fn kind(&self) -> &'static str {
         match self.emitter {
@@ -126,4 +146,23 @@ impl Light {
             Emitter::Directional(_) => "directional",
         }
     }
+}
+
+impl Cone {
+    /// A cone by the cosines of its angles in f64, the outer one from 0 up and not above the inner one.
+    pub(super) fn new(axis: Vec3, cos_inner: f64, cos_outer: f64) -> Cone {
+        let cos_outer = (cos_outer as f32).max(0.0);
+        let mut cos_inner = cos_inner as f32;
+        // Equal angles make a hard border, and close ones can have one cosine in f32.
+        if cos_inner <= cos_outer {
+            cos_inner = cos_outer.next_up();
+        }
+        Cone { axis, cos_inner, cos_outer }
+    }
+}
+
+/// A direction rounded once, if that leaves one.
+pub(super) fn direction_of(exact: DVec3) -> Option<Vec3> {
+    let direction = exact.as_vec3();
+    (direction.is_finite() && direction != Vec3::ZERO).then_some(direction)
 }

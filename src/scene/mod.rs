@@ -11,6 +11,7 @@ pub mod formats;
 mod framing;
 mod light;
 mod material;
+mod merge;
 
 pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
@@ -18,6 +19,7 @@ pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
 pub use light::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, SpotLight};
 pub use material::{Coverage, Material};
+pub use merge::{Adopted, Placement};
 
 use glam::Vec3;
 

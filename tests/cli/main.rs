@@ -7,8 +7,11 @@ mod hostile;
 mod info;
 mod masks;
 mod outputs;
+#[path = "../formats/polygon_writers.rs"]
+mod polygon_writers;
 mod render;
 mod replay;
+mod same_scene;
 mod usage;
 mod validate;
 mod view;

@@ -12,7 +12,11 @@ mod nff_files;
 mod obj_files;
 mod ply_files;
 mod ply_writer;
+mod polygon_writers;
 mod same_scene;
+mod toml_files;
+mod toml_page;
+mod toml_transforms;
 
 use lightbuffer::scene::Scene;
 

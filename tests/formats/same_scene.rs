@@ -1,11 +1,10 @@
 //! One scene in every format: the same triangles, bit by bit and in the same order.
 
 use crate::corners;
-use crate::fixtures::{Folder, data_uri, floats};
+use crate::fixtures::Folder;
 use crate::ply_writer::encoded;
+use crate::polygon_writers::{gltf, nff, obj, ply, toml};
 use lightbuffer::scene::{Scene, formats};
-use serde_json::json;
-use std::fmt::Write;
 
 /// Polygons whose numbers have no short form in decimal: convex, concave, with a corner in the middle of an
 /// edge, tilted, tiny and far away.
@@ -29,61 +28,6 @@ fn polygons() -> Vec<Vec<[f32; 3]>> {
         far.to_vec(),
         vec![[-1.0, -2.0, 0.5], [3.0, -2.0, 0.5], [3.0, 2.0, 0.5], [-1.0, 2.0, 0.5]],
     ]
-}
-
-fn obj(polygons: &[Vec<[f32; 3]>]) -> String {
-    let mut text = String::new();
-    for polygon in polygons {
-        polygon.iter().for_each(|[x, y, z]| writeln!(text, "v {x} {y} {z}").unwrap());
-        let numbers: Vec<_> = (1..=polygon.len()).rev().map(|i| format!("-{i}")).collect();
-        writeln!(text, "f {}", numbers.join(" ")).unwrap();
-    }
-    text
-}
-
-fn ply(polygons: &[Vec<[f32; 3]>]) -> String {
-    let (mut vertices, mut faces, mut count) = (String::new(), String::new(), 0);
-    for polygon in polygons {
-        polygon.iter().for_each(|[x, y, z]| writeln!(vertices, "{x} {y} {z}").unwrap());
-        write!(faces, "{}", polygon.len()).unwrap();
-        (count..count + polygon.len()).for_each(|i| write!(faces, " {i}").unwrap());
-        faces.push('\n');
-        count += polygon.len();
-    }
-    format!(
-        "ply\nformat ascii 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\n\
-         element face {}\nproperty list uchar ushort vertex_indices\nend_header\n{vertices}{faces}",
-        polygons.len()
-    )
-}
-
-fn nff(polygons: &[Vec<[f32; 3]>]) -> String {
-    let mut text = String::from("l 1 2 3\n");
-    for (i, polygon) in polygons.iter().enumerate() {
-        if i % 2 == 0 {
-            text += "f 1 0.5 0.25 0.8 0.1 10 0 1\n";
-        }
-        writeln!(text, "p {}", polygon.len()).unwrap();
-        polygon.iter().for_each(|[x, y, z]| writeln!(text, "{x} {y} {z}").unwrap());
-    }
-    text
-}
-
-/// glTF has triangles alone, so it is handed those that another format's polygons became.
-fn gltf(triangles: &[[[f32; 3]; 3]]) -> String {
-    let count = 3 * triangles.len();
-    let bytes = floats(triangles.as_flattened().as_flattened());
-    json!({
-        "asset": { "version": "2.0" },
-        "scenes": [{ "nodes": [0] }],
-        "nodes": [{ "mesh": 0 }],
-        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
-                        "min": [-1, -2, -1], "max": [7e6, 12346, 1e7] }],
-        "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
-        "buffers": [{ "byteLength": bytes.len(), "uri": data_uri(&bytes) }],
-    })
-    .to_string()
 }
 
 fn bits(scene: &Scene) -> Vec<[[u32; 3]; 3]> {
@@ -112,6 +56,9 @@ fn one_scene_has_the_same_triangles_in_every_format() {
         load("big.ply", encoded(&ply(&polygons), "binary_big_endian").as_slice()),
         load("scene.nff", nff(&polygons).as_bytes()),
         load("scene.gltf", gltf(&corners(&reference)).as_bytes()),
+        load("scene.toml", toml(&polygons).as_bytes()),
+        load("of_obj.toml", b"version = 1\n[[include]]\npath = 'scene.obj'\ntransform = {}\n"),
+        load("of_gltf.toml", b"version = 1\n[[include]]\npath = 'scene.gltf'\n"),
     ];
     for scene in &others {
         assert_eq!(bits(scene), bits(&reference), "{}", scene.name);

@@ -14,7 +14,15 @@ use std::path::{Component, Path, PathBuf};
 /// # Errors
 /// If it cannot be opened, is not a regular file, or is larger than [`MAX_SCENE_BYTES`].
 pub(super) fn read_scene(path: &Path) -> Result<Vec<u8>> {
-    read_regular(path, MAX_SCENE_BYTES).map_err(|denial| match denial {
+    read_scene_within(path, MAX_SCENE_BYTES)
+}
+
+/// The same for a file that may hold so many bytes.
+///
+/// # Errors
+/// As [`read_scene`].
+pub(super) fn read_scene_within(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    read_regular(path, limit).map_err(|denial| match denial {
         Denial::Missing(source) | Denial::Unreadable(source) => Error::io(path, "read", source),
         Denial::Refused(why) => Error::input(path, Place::File, why),
     })

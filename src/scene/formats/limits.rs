@@ -65,3 +65,15 @@ pub const MAX_FILLS: usize = 1 << 20;
 
 /// The most corners of a polygon that is not strictly convex: cutting it up takes quadratic time.
 pub const MAX_CONCAVE_CORNERS: usize = 1 << 12;
+
+/// The most bytes of all TOML files of a scene: one byte can take a hundred while it is parsed.
+pub const MAX_TOML_BYTES: u64 = 16 << 20;
+
+/// The most generations of TOML files that include each other.
+pub const MAX_INCLUDE_DEPTH: usize = 16;
+
+/// The most times that a TOML scene places a file.
+pub const MAX_PLACEMENTS: u64 = 1 << 20;
+
+/// The most cameras of a TOML scene.
+pub const MAX_CAMERAS: u64 = 1 << 16;

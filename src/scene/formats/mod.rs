@@ -7,36 +7,35 @@
 mod confined;
 mod gltf;
 pub mod limits;
+mod looking;
 mod nff;
 mod obj;
 mod ply;
 mod polygon;
-mod shading_normals;
+pub(super) mod shading_normals;
 mod text;
+mod toml;
 
 use super::Scene;
 use crate::error::{Error, Place, Result};
 use std::path::Path;
 
-/// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`
-/// or `.nff`.
+/// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`,
+/// `.nff` or `.toml`.
 ///
 /// Files that the scene names are read only from the folder that holds it, or from below.
 ///
 /// # Errors
 /// One line with file and place for whatever cannot be read, and for a file without a single triangle.
 pub fn load(path: &Path) -> Result<Scene> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-    let scene = match extension.as_str() {
-        "obj" => obj::load(path)?,
-        "ply" => ply::load(path)?,
-        "gltf" => gltf::load(path, gltf::Container::Text)?,
-        "glb" => gltf::load(path, gltf::Container::Binary)?,
-        "nff" => nff::load(path)?,
-        _ => {
-            let why = "expected a name that ends in .obj, .ply, .gltf, .glb or .nff";
-            return Err(Error::input(path, Place::File, why));
-        }
+    let scene = match Format::of(path) {
+        Some(Format::Obj) => obj::load(path)?,
+        Some(Format::Ply) => ply::load(path)?,
+        Some(Format::Gltf) => gltf::load(path, gltf::Container::Text)?,
+        Some(Format::Glb) => gltf::load(path, gltf::Container::Binary)?,
+        Some(Format::Nff) => nff::load(path)?,
+        Some(Format::Toml) => toml::load(path)?,
+        None => return Err(Error::input(path, Place::File, Format::EXPECTED)),
     };
     if scene.triangles.is_empty() {
         let dropped = scene.dropped.degenerate + scene.dropped.non_finite;
@@ -49,6 +48,33 @@ pub fn load(path: &Path) -> Result<Scene> {
         return Err(Error::input(path, Place::File, why));
     }
     Ok(scene)
+}
+
+/// What the extension of a file's name says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Obj,
+    Ply,
+    Gltf,
+    Glb,
+    Nff,
+    Toml,
+}
+
+impl Format {
+    const EXPECTED: &str = "expected a name that ends in .obj, .ply, .gltf, .glb, .nff or .toml";
+
+    fn of(path: &Path) -> Option<Format> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "obj" => Some(Format::Obj),
+            "ply" => Some(Format::Ply),
+            "gltf" => Some(Format::Gltf),
+            "glb" => Some(Format::Glb),
+            "nff" => Some(Format::Nff),
+            "toml" => Some(Format::Toml),
+            _ => None,
+        }
+    }
 }
 
 /// The name that a scene is reported under: its file's name.

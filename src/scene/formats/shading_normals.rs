@@ -1,11 +1,15 @@
 //! Normals from files, made safe to normalise.
 
 use crate::scene::SmoothNormals;
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 /// Replaces every unusable normal (zero or not finite) by the face normal of its triangle, and returns how
 /// many corners that concerns. `corners` of a triangle may hold [`NO_NORMAL`] where the file gives none.
-pub(super) fn repair(normals: &mut SmoothNormals, positions: &[Vec3], triangles: &[[u32; 3]]) -> usize {
+pub(in crate::scene) fn repair(
+    normals: &mut SmoothNormals,
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+) -> usize {
     let mut replaced = 0;
     for (corners, triangle) in normals.corners.iter_mut().zip(triangles) {
         let usable = |corner: u32| {
@@ -37,8 +41,16 @@ fn face_normal(corners: [Vec3; 3]) -> Vec3 {
     unit((b - a).cross(c - a)).unwrap_or(Vec3::Y)
 }
 
+/// The matrix that turns normals where another turns positions: the inverse transpose but for a factor above
+/// 0, which needs no division.
+pub(in crate::scene) fn matrix(m: &DMat3) -> DMat3 {
+    let cofactors =
+        DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    cofactors * if m.determinant() < 0.0 { -1.0 } else { 1.0 }
+}
+
 /// A direction as a unit vector, if it has one.
-pub(super) fn unit(direction: DVec3) -> Option<Vec3> {
+pub(in crate::scene) fn unit(direction: DVec3) -> Option<Vec3> {
     // Scaled first: the square of a length near the ends of the range would overflow or vanish.
     let scale = direction.abs().max_element();
     if !(scale > 0.0 && scale.is_finite()) {

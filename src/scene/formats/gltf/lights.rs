@@ -3,6 +3,7 @@
 use super::nodes::Placed;
 use super::schema::{Document, LightEntry, SpotCone};
 use crate::scene::formats::text::printable;
+use crate::scene::light::direction_of;
 use crate::scene::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, SpotLight};
 use glam::{DVec3, Vec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -27,11 +28,7 @@ fn emitter(entry: &LightEntry, placed: &Placed) -> Result<Emitter, String> {
         "point" => Ok(Emitter::Point(point(entry, placed)?)),
         "spot" => {
             let point = point(entry, placed)?;
-            let [cos_inner, cos_outer] = cosines(&entry.spot)?;
-            Ok(Emitter::Spot(SpotLight {
-                point,
-                cone: Cone { axis: direction(-z_axis)?, cos_inner, cos_outer },
-            }))
+            Ok(Emitter::Spot(SpotLight { point, cone: cone(&entry.spot, direction(-z_axis)?)? }))
         }
         "directional" => {
             let irradiance = strength(entry)?;
@@ -65,15 +62,11 @@ fn point(entry: &LightEntry, placed: &Placed) -> Result<PointLight, String> {
 
 /// A direction of the world, rounded once.
 fn direction(exact: DVec3) -> Result<Vec3, String> {
-    let direction = exact.as_vec3();
-    match direction.is_finite() && direction != Vec3::ZERO {
-        true => Ok(direction),
-        false => Err("its node's transform leaves no direction to shine in".into()),
-    }
+    direction_of(exact).ok_or_else(|| "its node's transform leaves no direction to shine in".into())
 }
 
-/// Cosines of the inner and the outer angle.
-fn cosines(cone: &SpotCone) -> Result<[f32; 2], String> {
+/// The cone of an inner and an outer angle.
+fn cone(cone: &SpotCone, axis: Vec3) -> Result<Cone, String> {
     /// A right angle as exporters write it that compute in f32, a little above the one in f64.
     const WIDEST: f64 = std::f32::consts::FRAC_PI_2 as f64;
     let inner = cone.inner_cone_angle.unwrap_or(0.0);
@@ -83,11 +76,5 @@ fn cosines(cone: &SpotCone) -> Result<[f32; 2], String> {
             "expected 0 <= innerConeAngle <= outerConeAngle <= pi/2, found {inner} and {outer}"
         ));
     }
-    let cos_outer = (libm::cos(outer) as f32).max(0.0);
-    let mut cos_inner = libm::cos(inner) as f32;
-    // Exporters write equal angles for a hard border; close ones can have one cosine in f32.
-    if cos_inner <= cos_outer {
-        cos_inner = cos_outer.next_up();
-    }
-    Ok([cos_inner, cos_outer])
+    Ok(Cone::new(axis, libm::cos(inner), libm::cos(outer)))
 }

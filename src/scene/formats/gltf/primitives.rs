@@ -6,7 +6,7 @@ use super::schema::{Document, Primitive};
 use super::textures::Placement;
 use crate::scene::SmoothNormals;
 use crate::scene::formats::shading_normals;
-use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
+use glam::{DAffine3, DVec2, DVec3, Vec3};
 use std::collections::BTreeMap;
 
 /// How a primitive strings its vertices together.
@@ -205,7 +205,7 @@ impl Shape {
         };
         let mut normals_replaced = 0;
         let normals = self.normals.as_ref().map(|normals| {
-            let matrix = for_normals(&world.matrix3);
+            let matrix = shading_normals::matrix(&world.matrix3);
             let turn = |&n: &DVec3| shading_normals::unit(matrix * n).unwrap_or(Vec3::ZERO);
             let mut normals =
                 SmoothNormals { normals: normals.iter().map(turn).collect(), corners: triangles.clone() };
@@ -227,12 +227,4 @@ impl Shape {
             false => Err(format!("{}: a coordinate on the texture is not finite", placement.attribute())),
         }
     }
-}
-
-/// The matrix that turns normals where another turns positions: the inverse transpose but for a factor above
-/// 0, which needs no division.
-pub(super) fn for_normals(m: &DMat3) -> DMat3 {
-    let cofactors =
-        DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
-    cofactors * if m.determinant() < 0.0 { -1.0 } else { 1.0 }
 }

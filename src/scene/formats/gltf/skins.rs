@@ -9,6 +9,7 @@ use super::nodes::{self, Placed};
 use super::primitives::{self, Geometry, Shape};
 use super::schema::{Document, Primitive, SkinEntry};
 use crate::scene::formats::limits::MAX_JOINTS;
+use crate::scene::formats::shading_normals;
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -126,7 +127,7 @@ pub(super) fn skinned(
         let position = &mut shape.positions[slot];
         *position = matrix.transform_point3(*position);
         if let Some(normals) = &mut shape.normals {
-            normals[slot] = primitives::for_normals(&matrix.matrix3) * normals[slot];
+            normals[slot] = shading_normals::matrix(&matrix.matrix3) * normals[slot];
         }
     }
     Ok(shape)

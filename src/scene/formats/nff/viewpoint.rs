@@ -2,7 +2,7 @@
 
 use super::words::{Complaint, Words, shown};
 use crate::scene::formats::limits::MAX_CAMERA_PIXELS;
-use crate::scene::formats::shading_normals::unit;
+use crate::scene::formats::looking;
 use crate::scene::{Camera, ImageSize};
 use glam::Vec3;
 
@@ -66,26 +66,19 @@ impl Lines {
         if !(angle > 0.0 && angle < 180.0) {
             return Err(format!("angle {angle}, expected one between 0 and 180"));
         }
-        let forward = unit((at - from).as_dvec3()).ok_or("`from` and `at` leave no direction to look in")?;
-        let up = unit(up.as_dvec3()).ok_or("expected `up` to be a direction")?;
-        if forward.as_dvec3().cross(up.as_dvec3()).length_squared() <= PARALLEL {
-            return Err("`up` is the direction to look in".into());
-        }
+        let looking = looking::camera("view", [from, at, up], angle);
+        let camera = looking.map_err(|why| why.message("`from` and `at`"))?;
         // What lies between the centres of the first and the last row, and half a row more on either side.
         let rows = f64::from(size.height);
         let widened = if size.height > 1 { rows / (rows - 1.0) } else { 1.0 };
         let camera = Camera {
             tan_half_height: libm::tan(angle.to_radians() * 0.5) * widened,
             size: Some(size),
-            ..Camera::look_at("view", from, at, up, angle)
+            ..camera
         };
         Ok(Viewpoint { camera, oblong: size.width != size.height })
     }
 }
-
-/// The square of the sine between two directions up to which they are one: below, [`Camera::look_at`] takes
-/// another axis.
-const PARALLEL: f64 = 1e-11;
 
 #[cfg(test)]
 mod tests {

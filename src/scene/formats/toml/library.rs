@@ -1,0 +1,172 @@
+//! The files of a scene, each read once however often it is included.
+
+use super::document::{self, Complaint, Content, Include};
+use super::totals::{Held, Totals};
+use crate::error::{Error, Place, Result};
+use crate::scene::Scene;
+use crate::scene::formats::confined::{self, Room};
+use crate::scene::formats::limits::{MAX_INCLUDE_DEPTH, MAX_REFERENCED_BYTES, MAX_TOML_BYTES};
+use crate::scene::formats::text::printable;
+use crate::scene::formats::{self, Format};
+use glam::DAffine3;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// All files of a scene.
+pub(super) struct Library {
+    /// Those that a file includes come before it.
+    pub(super) sources: Vec<Source>,
+    /// By canonical path, the number of a file that was read.
+    known: HashMap<PathBuf, usize>,
+    /// Canonical paths of the files that are being read, each included by the one before it.
+    open: Vec<PathBuf>,
+    held: Held,
+    /// Bytes that TOML files may still hold.
+    text_left: u64,
+    /// Bytes that files of other formats may still hold.
+    bytes_left: u64,
+}
+
+/// A file.
+pub(super) struct Source {
+    /// As it is shown in messages.
+    pub(super) path: PathBuf,
+    /// What it holds itself.
+    pub(super) scene: Scene,
+    /// Where each object goes; empty if none is moved.
+    pub(super) transforms: Vec<Option<DAffine3>>,
+    pub(super) inclusions: Vec<Inclusion>,
+    /// With everything that it includes.
+    totals: Totals,
+}
+
+/// A file in another.
+pub(super) struct Inclusion {
+    /// Its number in [`Library::sources`].
+    pub(super) source: usize,
+    /// The line that includes it.
+    pub(super) line: usize,
+    pub(super) entry: Include,
+}
+
+impl Library {
+    /// Reads a scene file and whatever it includes; its name and its number, the last, come back beside.
+    ///
+    /// # Errors
+    /// One line with file and place for what cannot be read, leads out of a file's folder, includes itself,
+    /// or would become more than a scene may hold.
+    pub(super) fn read(path: &Path) -> Result<(Library, Option<String>)> {
+        let mut library = Library {
+            sources: Vec::new(),
+            known: HashMap::new(),
+            open: Vec::new(),
+            held: Held::default(),
+            text_left: MAX_TOML_BYTES,
+            bytes_left: MAX_REFERENCED_BYTES,
+        };
+        let canonical = path.canonicalize().map_err(|error| Error::io(path, "read", error))?;
+        let name = library.read_document(path, canonical)?;
+        Ok((library, name))
+    }
+
+    /// Reads a TOML file, which becomes the last source, and returns the name that it gives its scene.
+    fn read_document(&mut self, path: &Path, canonical: PathBuf) -> Result<Option<String>> {
+        let bytes = confined::read_scene_within(path, self.text_left)?;
+        self.text_left -= bytes.len() as u64;
+        let at_line = |line: usize, why: String| Error::input(path, Place::Line(line), why);
+        let lines = Lines::of(&bytes);
+        let complaint = |(at, why): Complaint| at_line(lines.line(at), why);
+        let text = str::from_utf8(&bytes)
+            .map_err(|error| complaint((error.valid_up_to(), "expected text in UTF-8".into())))?;
+        let Content { name, scene, transforms, includes } = document::read(text).map_err(complaint)?;
+        self.held.add(&scene).map_err(|why| Error::input(path, Place::File, why))?;
+        let mut totals =
+            Totals::default().plus(Totals::of(&scene)).map_err(|why| Error::input(path, Place::File, why))?;
+        let room = Room::beside(path)?;
+        self.open.push(canonical);
+        let mut inclusions = Vec::with_capacity(includes.len());
+        // The operating system need not be asked twice about one name.
+        let mut named = HashMap::new();
+        for entry in includes {
+            let line = lines.line(entry.at);
+            let source = match named.get(&entry.path) {
+                Some(&known) => known,
+                None => self.include(path, &room, &entry, &|why| at_line(line, why))?,
+            };
+            named.insert(entry.path.clone(), source);
+            let mut added = self.sources[source].totals;
+            if !entry.lights {
+                added.lights = 0;
+            }
+            if !entry.cameras {
+                added.cameras = 0;
+            }
+            totals = totals.plus(added).map_err(|why| at_line(line, why))?;
+            inclusions.push(Inclusion { source, line, entry });
+        }
+        let canonical = self.open.pop().expect("pushed above");
+        self.keep(canonical, Source { path: path.into(), scene, transforms, inclusions, totals });
+        Ok(name)
+    }
+
+    /// Finds or reads an included file and returns its number.
+    fn include(
+        &mut self,
+        path: &Path,
+        room: &Room,
+        entry: &Include,
+        error: &dyn Fn(String) -> Error,
+    ) -> Result<usize> {
+        let located = room.locate(&entry.path).map_err(|denial| error(denial.message(&entry.path)))?;
+        if let Some(&known) = self.known.get(&located) {
+            return Ok(known);
+        }
+        if self.open.contains(&located) {
+            return Err(error(format!("`{}` includes this file", printable(&entry.path))));
+        }
+        let shown = path.with_file_name("").join(entry.path.replace('\\', "/"));
+        match Format::of(&located) {
+            None => {
+                return Err(error(format!("`{}`: {}", printable(&entry.path), Format::EXPECTED)));
+            }
+            Some(Format::Toml) if self.open.len() == MAX_INCLUDE_DEPTH => {
+                return Err(error(format!("expected at most {MAX_INCLUDE_DEPTH} files inside each other")));
+            }
+            Some(Format::Toml) => {
+                self.read_document(&shown, located)?;
+            }
+            Some(_) => {
+                // The loader asks again; here only the sum of all files is of interest.
+                let bytes = std::fs::metadata(&located).map_or(0, |metadata| metadata.len());
+                self.bytes_left = self.bytes_left.checked_sub(bytes).ok_or_else(|| {
+                    error(format!("all included files hold more than {MAX_REFERENCED_BYTES} bytes"))
+                })?;
+                let scene = formats::load(&shown)?;
+                self.held.add(&scene).map_err(error)?;
+                let totals = Totals::of(&scene);
+                let (transforms, inclusions) = (Vec::new(), Vec::new());
+                self.keep(located, Source { path: shown, scene, transforms, inclusions, totals });
+            }
+        }
+        Ok(self.sources.len() - 1)
+    }
+
+    fn keep(&mut self, canonical: PathBuf, source: Source) {
+        self.known.insert(canonical, self.sources.len());
+        self.sources.push(source);
+    }
+}
+
+/// Where the lines of a text end.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &[u8]) -> Lines {
+        Lines(text.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(at, _)| at).collect())
+    }
+
+    /// The line, from 1, of a place in the text.
+    fn line(&self, at: usize) -> usize {
+        1 + self.0.partition_point(|&end| end < at)
+    }
+}

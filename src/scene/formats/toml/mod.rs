@@ -1,0 +1,155 @@
+//! Our own scene format, in TOML: what no interchange format says, and files of the others by path.
+//!
+//! `docs/SCENE-FORMAT.md` explains it element by element. In short: `[[include]]` places another file,
+//! `[[mesh]]`, `[[material]]`, `[[light]]` and `[[camera]]` say the rest. What a file holds itself comes before
+//! what it includes.
+//!
+//! Coordinates are rounded to 32 bits where they are read. Transforms are in f64, those of nested files are
+//! multiplied there, and each coordinate is rounded once after them. Where nothing moves an object its numbers
+//! stay bit by bit.
+//!
+//! [`library`] reads every file once, [`document`] what a file says itself. [`totals`] counts how much all
+//! that would become, so that a scene that is too large is refused before any of it is placed here.
+
+mod cameras;
+mod document;
+mod library;
+mod lights;
+mod meshes;
+mod schema;
+mod totals;
+mod transforms;
+mod values;
+
+use self::library::{Library, Source};
+use super::scene_name;
+use super::text::printable;
+use crate::error::{Error, Place, Result};
+use crate::scene::{Adopted, Placement, Scene, SceneBuilder};
+use glam::DAffine3;
+use std::path::Path;
+
+/// Reads a TOML scene.
+///
+/// # Errors
+/// One line with file and place for whatever cannot be read in it or in a file that it includes.
+pub(super) fn load(path: &Path) -> Result<Scene> {
+    let (library, name) = Library::read(path)?;
+    let builder = SceneBuilder::new(name.unwrap_or_else(|| scene_name(path)));
+    let adopted = library.sources.iter().map(|_| None).collect();
+    let mut assembly = Assembly { library: &library, builder, adopted };
+    assembly.place(library.sources.len() - 1, &Circumstances::usual())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for source in &library.sources {
+        for warning in &source.scene.warnings {
+            assembly.builder.warn(match source.path == path {
+                true => warning.clone(),
+                false => format!("{}: {warning}", shown(folder, &source.path)),
+            });
+        }
+    }
+    Ok(assembly.builder.finish())
+}
+
+/// An included file as seen from the scene's folder.
+fn shown(folder: &Path, path: &Path) -> String {
+    printable(&path.strip_prefix(folder).unwrap_or(path).to_string_lossy())
+}
+
+/// What the files around one say about everything in it.
+#[derive(Clone, Copy)]
+struct Circumstances {
+    placement: Placement,
+    lights: bool,
+    cameras: bool,
+}
+
+impl Circumstances {
+    /// Of the scene file itself.
+    fn usual() -> Circumstances {
+        Circumstances { placement: Placement::default(), lights: true, cameras: true }
+    }
+}
+
+/// Files on their way into one scene.
+struct Assembly<'a> {
+    library: &'a Library,
+    builder: SceneBuilder,
+    /// What each file's numbers have become, once it has been placed.
+    adopted: Vec<Option<Adopted>>,
+}
+
+impl Assembly<'_> {
+    /// Places a file: what it holds itself, then what it includes.
+    fn place(&mut self, number: usize, around: &Circumstances) -> Result<()> {
+        let source = &self.library.sources[number];
+        let mut adopted = match self.adopted[number].take() {
+            Some(adopted) => adopted,
+            None => self.builder.adopt(&source.scene),
+        };
+        let outer = &around.placement;
+        for (index, object) in source.scene.objects.iter().enumerate() {
+            let own = source.transforms.get(index).copied().flatten();
+            let placement = Placement { transform: within(outer.transform, own), ..*outer };
+            self.builder
+                .place(&source.scene, object, &mut adopted, &placement)
+                .map_err(|error| Error::input(&source.path, Place::File, error.to_string()))?;
+        }
+        self.builder.count_dropped(source.scene.dropped);
+        self.look_and_light(source, around)?;
+        for inclusion in &source.inclusions {
+            let entry = &inclusion.entry;
+            let transform = within(outer.transform, entry.transform);
+            if !transform.is_none_or(|transform| transform.is_finite()) {
+                let why = "its transform inside those around it is not finite";
+                return Err(Error::input(&source.path, Place::Line(inclusion.line), why));
+            }
+            let placement = Placement {
+                transform,
+                casts: outer.casts.or(entry.casts),
+                receives: outer.receives.or(entry.receives),
+                material: outer.material.or(entry.material.map(|index| adopted.material(index))),
+            };
+            let inner = Circumstances {
+                placement,
+                lights: around.lights && entry.lights,
+                cameras: around.cameras && entry.cameras,
+            };
+            self.place(inclusion.source, &inner)?;
+        }
+        self.adopted[number] = Some(adopted);
+        Ok(())
+    }
+
+    /// Places the lights and cameras that a file holds itself.
+    fn look_and_light(&mut self, source: &Source, around: &Circumstances) -> Result<()> {
+        let transform = &around.placement.transform;
+        let nowhere = |element: String| {
+            let why = "the transform of an include leaves it no place or no direction";
+            Error::input(&source.path, Place::Element(element), why)
+        };
+        for light in source.scene.lights.iter().filter(|_| around.lights) {
+            let placed = match transform {
+                Some(transform) => light.transformed(transform),
+                None => Some(light.clone()),
+            };
+            self.builder.add_light(placed.ok_or_else(|| nowhere(format!("light `{}`", light.name)))?);
+        }
+        for camera in source.scene.cameras.iter().filter(|_| around.cameras) {
+            let placed = match transform {
+                Some(transform) => camera.transformed(transform),
+                None => Some(camera.clone()),
+            };
+            self.builder.add_camera(placed.ok_or_else(|| nowhere(format!("camera `{}`", camera.name)))?);
+        }
+        Ok(())
+    }
+}
+
+/// A transform inside another.
+fn within(outer: Option<DAffine3>, inner: Option<DAffine3>) -> Option<DAffine3> {
+    match (outer, inner) {
+        (Some(outer), Some(inner)) => Some(outer * inner),
+        (outer, inner) => outer.or(inner),
+    }
+}
