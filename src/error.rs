@@ -56,13 +56,27 @@ impl<T: fmt::Display> fmt::Display for OneLine<T> {
 pub enum Error {
     /// A scene file says something that cannot be read as a scene.
     #[error("{}{}: {}", OneLine(path.display()), OneLine(place), OneLine(message))]
-    Input { path: PathBuf, place: Place, message: String },
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// Where in it.
+        place: Place,
+        /// What was expected, or what is wrong there.
+        message: String,
+    },
     /// A request that makes no sense, whatever the files say.
     #[error("{}", OneLine(.0))]
     Usage(String),
     /// The operating system refused.
     #[error("{}: cannot {action}: {}", OneLine(path.display()), OneLine(source))]
-    Io { path: PathBuf, action: &'static str, source: std::io::Error },
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What could not be done: "read".
+        action: &'static str,
+        /// What the system says.
+        source: std::io::Error,
+    },
     /// Embree reported an error.
     #[error("Embree: {}", OneLine(.0))]
     Embree(String),

@@ -17,8 +17,11 @@ pub struct HoleMask {
 /// How a mask goes on beyond its sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HoleWrap {
+    /// Over and over.
     Repeat,
+    /// Over and over, every other time mirrored.
     MirroredRepeat,
+    /// The texels at its border go on.
     ClampToEdge,
 }
 

@@ -15,7 +15,9 @@ use crate::{Error, Result};
 /// inverse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EmbreeMode {
+    /// How scenes are built.
     pub scene: SceneOptions,
+    /// How they are asked.
     pub query: QueryOptions,
 }
 

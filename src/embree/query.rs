@@ -43,9 +43,13 @@ const _: () = {
 /// How many rays a packet has; those of the last packet that are not there are inactive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PacketWidth {
+    /// Rays on their own.
     One,
+    /// 4, the width of SSE and NEON.
     Four,
+    /// 8, the width of AVX.
     Eight,
+    /// 16, the width of AVX-512.
     Sixteen,
 }
 
@@ -62,7 +66,9 @@ pub enum Grouping {
 /// Whether neighbouring rays of a batch lie close together in space and direction: a hint about speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coherence {
+    /// They do, as those of one light over an image.
     Coherent,
+    /// They need not.
     Incoherent,
 }
 
@@ -80,8 +86,11 @@ pub enum Denormals {
 /// How a scene is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct QueryOptions {
+    /// How many rays go to Embree in one call.
     pub grouping: Grouping,
+    /// What it is told about their neighbourhood.
     pub coherence: Coherence,
+    /// What becomes of denormal numbers meanwhile.
     pub denormals: Denormals,
 }
 

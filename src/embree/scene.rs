@@ -40,8 +40,11 @@ pub enum Receiver {
 /// How a scene is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SceneOptions {
+    /// How rays meet it.
     pub robustness: Robustness,
+    /// How well its tree is built.
     pub quality: BuildQuality,
+    /// Whether rays may exclude a triangle.
     pub receiver: Receiver,
 }
 
