@@ -131,10 +131,12 @@ plant filter-without-slack src/geometry/light_triangle.rs \
     no_filter_contradicts_exact_arithmetic
 
 plant closed-triangle-opened src/geometry/occlusion.rs \
-    '.sign() == Sign::Negative {
-                return false;' '.sign() != Sign::Positive {
-                return false;' \
+    'self.exact_edge(corners, i).sign() == Sign::Negative' 'self.exact_edge(corners, i).sign() != Sign::Positive' \
     all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant hole-at-the-wrong-corner src/geometry/texel.rs \
+    'if as_they_are { [a, b, c] } else { [a, c, b] }' 'if as_they_are { [a, b, c] } else { [a, b, c] }' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
 
 plant footprint-of-a-ray-too-narrow src/visibility/t_buffer.rs \
     'let half = half * half / 1_048_576.0;' 'let half = -half * half / 1_024.0;' \
