@@ -1,6 +1,6 @@
 # Set-up and the main jobs. Each target is complete on a fresh Debian 12 machine that has Rust, gcc and make.
 #
-#   make demo                      build, then validate two scenes of scenes/; the results are in out/
+#   make demo                      build, then validate three scenes of scenes/; the results are in out/
 #   make test                      every test
 #   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
 #   make lint                      formatting and warnings
@@ -27,7 +27,8 @@ demo: packages
 	$(CARGO) build --release
 	target/release/lightbuffer validate scenes/blocks.obj --size $(DEMO_SIZE) -o out/blocks
 	target/release/lightbuffer validate scenes/courtyard.glb --size $(DEMO_SIZE) -o out/courtyard
-	@echo "Images, difference maps and verdicts are in $(CURDIR)/out/blocks and $(CURDIR)/out/courtyard"
+	target/release/lightbuffer validate scenes/blocks-lights.toml --size $(DEMO_SIZE) -o out/blocks-lights
+	@echo "Images, difference maps and verdicts are in $(CURDIR)/out/: blocks, courtyard, blocks-lights"
 
 # The library's own tests run in debug too: overflow checks and assertions see what release does not. So does the
 # one that holds the masks of both profiles against each other.
@@ -53,4 +54,4 @@ planted-bugs: packages
 	bash tests/planted_bugs.sh
 
 clean-demo:
-	rm -rf out/blocks out/courtyard
+	rm -rf out/blocks out/courtyard out/blocks-lights

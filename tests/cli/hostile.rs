@@ -96,7 +96,7 @@ fn what_is_no_scene_at_all() {
 #[test]
 fn a_device_under_the_name_of_a_scene() {
     let folder = Folder::new();
-    for name in ["zero.obj", "zero.ply", "zero.gltf", "zero.glb", "zero.nff"] {
+    for name in ["zero.obj", "zero.ply", "zero.gltf", "zero.glb", "zero.nff", "zero.toml"] {
         std::os::unix::fs::symlink("/dev/zero", folder.path(name)).unwrap();
         refused(&folder, &folder.path(name), "expected a regular file, found a device");
     }

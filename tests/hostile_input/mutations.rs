@@ -68,6 +68,7 @@ fn check(name: &str, mut file: Vec<u8>, changes: &[Change], mend: impl Fn(&mut V
     mend(&mut file);
     let folder = Folder::new();
     folder.write("paint.mtl", PAINT);
+    folder.write("part.obj", OBJ);
     let path = folder.write(name, &file);
     match formats::load(&path) {
         Ok(scene) => {
@@ -102,6 +103,16 @@ const PLY: &str = "ply\nformat ascii 1.0\ncomment ours\nelement vertex 5\nproper
 const NFF: &str = "# remark\nb 0 0 0\nv\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 9 9\nl 4 3 2\n\
     l 1 -4 4 1 0.5 0\nf 1 0.5 0 0.8 0.2 10 0 1\np 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nf 0 1 0 1 0 1 0.5 1.3\npp 4\n0 0 0 0 0 1\n\
     1 0 0 0 0 1\n0.5 0.2 0 0 1 0\n0 1 0 0 0 1\np 3\n0 0 1\n1 0 1\n0 1 1\n";
+
+const TOML: &str = "version = 1\n[[include]]\npath = 'part.obj'\nmaterial = 'red'\ncast_shadows = false\nlights = true\n\
+    transform = { scale = [1, -2, 1], rotate = { axis = [0, 1, 0], degrees = 30 }, translate = [0, 0.5, 0] }\n\
+    [[include]]\npath = 'part.obj'\n[include.transform]\nmatrix = [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n\
+    [[material]]\nname = 'red'\ndiffuse = [1, 0.5, 0]\nspecular = 0.5\nshininess = 20\n[[mesh]]\nmaterial = 'red'\n\
+    vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.2, 0]]\nfaces = [[0, 1, 2, 3], [0, 1, 4, 2]]\n\
+    normals = [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 1, 0], [0, 0, 1]]\nreceive_shadows = false\n[[light]]\ntype = 'spot'\n\
+    position = [1, 9, 1]\ntarget = [0, 0, 0]\ninner_degrees = 10\nouter_degrees = 20\nrange = 50\n[[light]]\n\
+    type = 'directional'\ntowards = [0, 1, 0]\nirradiance = 2\n[[camera]]\nposition = [0, 1, 5]\ntarget = [0, 0, 0]\n\
+    up = [0, 1, 0]\nvertical_degrees = 50\nsize = [8, 8]\n";
 
 /// A document with everything that is read.
 fn document() -> Value {
@@ -162,6 +173,9 @@ fn what_is_changed_is_valid_before() {
         let scene = formats::load(&folder.write("some.gltf", document.to_string())).unwrap();
         assert_eq!(scene.triangles.len(), triangles);
     }
+    folder.write("paint.mtl", PAINT);
+    folder.write("part.obj", OBJ);
+    assert_eq!(formats::load(&folder.write("some.toml", TOML)).unwrap().triangles.len(), 14);
 }
 
 proptest! {
@@ -238,6 +252,11 @@ proptest! {
     }
 
     #[test]
+    fn of_toml(changes in prop::collection::vec(change(), 1..6)) {
+        check("some.toml", TOML.into(), &changes, |_| ());
+    }
+
+    #[test]
     fn of_material_libraries(changes in prop::collection::vec(change(), 1..6)) {
         let mut library = PAINT.as_bytes().to_vec();
         changes.iter().for_each(|change| change.apply(&mut library));
@@ -251,7 +270,7 @@ proptest! {
 
     #[test]
     fn of_nothing(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-        for name in ["some.obj", "some.ply", "some.gltf", "some.glb", "some.nff"] {
+        for name in ["some.obj", "some.ply", "some.gltf", "some.glb", "some.nff", "some.toml"] {
             check(name, bytes.clone(), &[], |_| ());
         }
     }
