@@ -31,7 +31,7 @@ fn polygons() -> Vec<Vec<[f32; 3]>> {
 /// Every channel of a mask or of what is said about masks, as bits.
 fn shadows(folder: &Folder, name: &str, bytes: &[u8]) -> Vec<(String, Vec<u32>)> {
     let (scene, out) = (folder.write(name, bytes), folder.path("out"));
-    validate(&scene, &out, &["--light", "-3,7,4", "--light", "5,4,-2", "--no-floor"]).done();
+    validate(&scene, &out, &["--light", "-9,2,3", "--light", "7,2,6", "--no-floor"]).done();
     let image = read_exr(&out.join("image.exr")).unwrap();
     let masks = image.channels().iter().filter(|plane| plane.name.starts_with("shadow."));
     masks.map(|plane| (plane.name.clone(), plane.samples.iter().map(|s| s.to_bits()).collect())).collect()
