@@ -128,3 +128,24 @@ fn another_reader_finds_the_same_triangles() {
     }
     assert_eq!(next as usize, scene.triangles.len() * 3);
 }
+
+#[test]
+fn the_scenes_in_toml_put_the_others_together() {
+    let counts = |name: &str| {
+        let scene = load(name);
+        assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+        assert_eq!(scene.cameras[0].name, "view");
+        let kinds: Vec<_> = scene.lights.iter().map(|light| light.kind()).collect();
+        let apart =
+            |of: fn(&lightbuffer::scene::Object) -> bool| scene.objects.iter().filter(|o| of(o)).count();
+        (
+            scene.triangles.len(),
+            kinds.join(" "),
+            [apart(|o| !o.shadowing.casts), apart(|o| !o.shadowing.receives)],
+        )
+    };
+    assert_eq!(counts("courtyard-sun.toml"), (112_492, "directional".into(), [0, 0]));
+    assert_eq!(counts("courtyard-spots.toml"), (112_492, "spot spot".into(), [0, 0]));
+    // The blocks twice, a floor of two triangles and a carpet of four.
+    assert_eq!(counts("blocks-lights.toml"), (2 * 732 + 6, "point spot directional".into(), [15, 1]));
+}
