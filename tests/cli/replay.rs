@@ -5,6 +5,7 @@ use lightbuffer::film::read_exr;
 use serde_json::{Value, json};
 
 /// An epsilon that lets Embree miss much, in a reproducible way.
+#[cfg(feature = "embree")]
 const EPSILON: [&str; 2] = ["--embree-epsilon", "0.3"];
 
 fn replay(options: &[&str]) -> Value {
