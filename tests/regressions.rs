@@ -95,6 +95,26 @@ fn differences_beyond_the_range_of_f32_are_decided() {
 }
 
 #[test]
+fn lights_far_outside_a_scene_are_decided_as_lights_inside_are() {
+    // A sheet above a grid of points, some of them straight behind its edges as seen from any light this way.
+    let way = Vec3::new(-0.5, 0.75, 0.25);
+    let [a, b, c, d] =
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, z)| Vec3::new(x, 1.5, z));
+    let scene = scene(&[vec![[a, b, c], [a, c, d]]]);
+    let steps = [-2.0f32, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0];
+    let points: Vec<_> = steps
+        .iter()
+        .flat_map(|&x| steps.map(|z| SurfacePoint::bare(Vec3::new(x, 0.0, z)).unwrap()))
+        .collect();
+    for distance in [0.5f32, 2.0, 3.0, 1e3, 1e6, 1e12, 1e18, 2e18, f32::MAX] {
+        all_agree(&scene, way * distance, &points, Receivers::Anywhere);
+    }
+    for length in [f32::from_bits(1) * 4.0, 1e-20, 1.0, f32::MAX] {
+        all_agree(&scene, LightPosition::Towards(way * length), &points, Receivers::Anywhere);
+    }
+}
+
+#[test]
 fn fields_of_view_just_below_a_half_turn_are_seen_alike() {
     // Directions lose the view's own share to rounding and run in the image plane or behind it.
     let behind = vec![[Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(-1.0, 0.0, -3.0)]];

@@ -1,6 +1,7 @@
 //! Help, version and what is refused before any work is done.
 
-use crate::{BLOCKS, Folder, SIZE, lightbuffer, names};
+use crate::{BLOCKS, Folder, SIZE, lightbuffer, names, validate};
+use std::ffi::OsStr;
 
 #[test]
 fn help_and_version_are_results() {
@@ -79,4 +80,19 @@ fn errors_of_arguments_with_line_breaks_stay_on_their_line() {
     assert!(line.contains(r"no\nsuch\u{1b}[31m.obj: cannot read"), "{line}");
     let arguments = ["validate", "-q", BLOCKS, "--camera", "a\nb", "-o", output.to_str().unwrap()];
     assert!(lightbuffer(arguments).failed().contains(r"no camera `a\nb`"));
+}
+
+#[test]
+fn what_needs_more_memory_than_allowed_is_refused_before_it_is_asked_for() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let large = ["validate", "-q", BLOCKS, "--size", "16000x16000", "--memory-limit", "1G", "-o"];
+    let line = lightbuffer(large.map(OsStr::new).into_iter().chain([out.as_os_str()])).failed();
+    assert!(line.contains("an image of 16000x16000 pixels with a light would need about"), "{line}");
+    assert!(line.ends_with("and --memory-limit is 1024 MiB"), "{line}");
+    let line = validate(BLOCKS, &out, &["--resolution", "4096", "--memory-limit", "200M"]).failed();
+    assert!(line.contains("a light buffer of 4096 cells along an edge would need about"), "{line}");
+    assert!(!out.exists());
+    validate(BLOCKS, &out, &["--resolution", "64", "--memory-limit", "200M"]).done();
+    validate(BLOCKS, &folder.path("none"), &["--memory-limit", "much"]).misused("such as 16G");
 }
