@@ -88,7 +88,7 @@ fn what_needs_more_memory_than_allowed_is_refused_before_it_is_asked_for() {
     let out = folder.path("out");
     let large = ["validate", "-q", BLOCKS, "--size", "16000x16000", "--memory-limit", "1G", "-o"];
     let line = lightbuffer(large.map(OsStr::new).into_iter().chain([out.as_os_str()])).failed();
-    assert!(line.contains("an image of 16000x16000 pixels with a light would need about"), "{line}");
+    assert!(line.contains(" would need about "), "{line}");
     assert!(line.ends_with("and --memory-limit is 1024 MiB"), "{line}");
     let line = validate(BLOCKS, &out, &["--resolution", "4096", "--memory-limit", "200M"]).failed();
     assert!(line.contains("a light buffer of 4096 cells along an edge would need about"), "{line}");
