@@ -7,6 +7,7 @@
 pub mod batch;
 pub mod cone;
 pub mod convexity;
+pub mod curved;
 mod double_double;
 pub mod expansion;
 pub mod footprint;

@@ -1,6 +1,7 @@
 //! Where a point is, exactly, and the f64 point nearest to it.
 
 use super::ROUNDOFF;
+use super::curved::{Crossing, Shape};
 use super::double_double::DoubleDouble;
 use super::expansion::{self, ExactVector, Expansion};
 use glam::{DVec3, Vec3};
@@ -16,6 +17,17 @@ pub enum ExactPosition {
         direction: Vec3,
         /// The triangle.
         triangle: [Vec3; 3],
+    },
+    /// Where the line of a ray passes through a curved surface.
+    OnCurved {
+        /// Start of the ray.
+        origin: Vec3,
+        /// Direction of the ray, not normalised.
+        direction: Vec3,
+        /// The surface.
+        shape: Shape,
+        /// Which of the points where the line meets it.
+        crossing: Crossing,
     },
     /// These coordinates.
     Bare(Vec3),
@@ -35,6 +47,7 @@ impl ExactPosition {
     /// The exact position relative to `origin`, with a positive denominator.
     pub fn relative_to(&self, origin: Vec3) -> HomogeneousPoint {
         match *self {
+            ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
             ExactPosition::Bare(p) => {
                 HomogeneousPoint { xyz: expansion::difference(p, origin), w: Expansion::from(1.0) }
             }
@@ -56,6 +69,7 @@ impl ExactPosition {
     /// The position with each coordinate correctly rounded to f64.
     pub fn rounded(&self) -> DVec3 {
         match *self {
+            ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
             ExactPosition::Bare(p) => p.as_dvec3(),
             ExactPosition::OnRay { origin, direction, triangle } => {
                 round_in_double_double(origin, direction, triangle).unwrap_or_else(|| {

@@ -159,7 +159,7 @@ impl RayFacts {
     /// The ray that a point was found with.
     pub fn of(point: &SurfacePoint) -> Option<RayFacts> {
         match point.source {
-            PointSource::Ray { origin, direction, .. } => {
+            PointSource::Ray { origin, direction, .. } | PointSource::OnCurved { origin, direction, .. } => {
                 Some(RayFacts { origin: origin.to_array(), direction: direction.to_array() })
             }
             PointSource::Bare => None,

@@ -1,8 +1,9 @@
 //! From what loaders read to a checked [`Scene`].
 
 use super::{AlphaMask, Camera, Coverage, Light, Material, Object, Scene, Shadowing};
-use super::{TextureCoordinates, Triangle};
+use super::{CurvedPrimitive, TextureCoordinates, Triangle};
 use crate::error::{Error, Result};
+use crate::geometry::curved::Shape;
 use glam::Vec3;
 use std::collections::HashMap;
 
@@ -17,6 +18,8 @@ pub struct Dropped {
     pub degenerate: usize,
     /// Triangles with a NaN or infinite coordinate.
     pub non_finite: usize,
+    /// Curved surfaces without area, or with a number that is outside its range, NaN or infinite.
+    pub curved: usize,
 }
 
 /// Shading normals of one object.
@@ -39,6 +42,10 @@ pub struct ObjectInput {
     pub positions: Vec<Vec3>,
     /// Three indices into `positions` each.
     pub triangles: Vec<[u32; 3]>,
+    /// Polygons that the triangles were cut from, if they were.
+    pub polygons: Option<u32>,
+    /// Curved surfaces, in world space.
+    pub curved: Vec<Shape>,
     /// Shading normals, if the file has them.
     pub normals: Option<SmoothNormals>,
     /// Where the corners lie in the material's alpha mask; must be there if it has one.
@@ -56,6 +63,8 @@ impl ObjectInput {
             material: 0,
             positions,
             triangles,
+            polygons: None,
+            curved: Vec::new(),
             normals: None,
             texture_coordinates: None,
             shadowing: Shadowing::default(),
@@ -133,6 +142,7 @@ impl SceneBuilder {
         for total in [&mut self.scene.dropped, &mut self.already_said] {
             total.degenerate = total.degenerate.saturating_add(dropped.degenerate);
             total.non_finite = total.non_finite.saturating_add(dropped.non_finite);
+            total.curved = total.curved.saturating_add(dropped.curved);
         }
     }
 
@@ -167,7 +177,8 @@ impl SceneBuilder {
         self.scene.triangles.len()
     }
 
-    /// Adds an object. Triangles with non-finite corners or of zero area are dropped and counted.
+    /// Adds an object. Triangles with non-finite corners or of zero area are dropped and counted, and curved
+    /// surfaces with a defect.
     ///
     /// # Errors
     /// [`Error::Usage`] if an index is out of range, the material has an alpha mask and the object no texture
@@ -176,9 +187,9 @@ impl SceneBuilder {
         let scene = &mut self.scene;
         let total = |have: usize, more: usize| have.saturating_add(more) > MAX_ELEMENTS;
         if total(scene.vertices.len(), input.positions.len())
-            || total(scene.triangles.len(), input.triangles.len())
+            || total(scene.triangles.len() + scene.curved.len(), input.triangles.len() + input.curved.len())
         {
-            return Err(Error::Usage(format!("more than {MAX_ELEMENTS} vertices or triangles")));
+            return Err(Error::Usage(format!("more than {MAX_ELEMENTS} vertices or primitives")));
         }
         let Some(material) = scene.materials.get(input.material as usize) else {
             return Err(Error::Usage(format!("object {}: no material {}", input.name, input.material)));
@@ -208,11 +219,21 @@ impl SceneBuilder {
         }
         // Vertices that no kept triangle uses may be anything; a finite stand-in keeps later code simple.
         scene.vertices.extend(input.positions.iter().map(|&p| if p.is_finite() { p } else { Vec3::ZERO }));
+        let first_curved = scene.curved.len() as u32;
+        let sound = |shape: &Shape| shape.defect().is_none();
+        let curved = input.curved.iter().filter(|shape| sound(shape));
+        scene.curved.extend(curved.map(|&shape| CurvedPrimitive { shape, object }));
+        let curved_count = scene.curved.len() as u32 - first_curved;
+        scene.dropped.curved += input.curved.len() - curved_count as usize;
+        let count = scene.triangles.len() as u32 - first;
         scene.objects.push(Object {
             name: input.name,
             material: input.material,
             first,
-            count: scene.triangles.len() as u32 - first,
+            count,
+            first_curved,
+            curved_count,
+            polygons: input.polygons.unwrap_or(count),
             normals: input.normals.map(|n| SmoothNormals { corners: normal_corners, ..n }),
             texture_coordinates: texture_coordinates
                 .map(|t| TextureCoordinates { corners: texture_corners, ..t }),
@@ -230,11 +251,15 @@ impl SceneBuilder {
     pub fn finish(mut self) -> Scene {
         let degenerate = self.scene.dropped.degenerate - self.already_said.degenerate;
         let non_finite = self.scene.dropped.non_finite - self.already_said.non_finite;
+        let curved = self.scene.dropped.curved - self.already_said.curved;
         if degenerate > 0 {
             self.warn(format!("dropped {degenerate} triangles of zero area"));
         }
         if non_finite > 0 {
             self.warn(format!("dropped {non_finite} triangles with NaN or infinite coordinates"));
+        }
+        if curved > 0 {
+            self.warn(format!("dropped {curved} curved surfaces without area or with numbers out of range"));
         }
         self.scene
     }
@@ -306,7 +331,7 @@ mod tests {
             [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0], [f32::NAN, 0.0, 0.0]];
         builder.add_object(object(&positions, &[[0, 1, 3], [0, 1, 2], [0, 1, 4], [2, 2, 1]])).unwrap();
         let scene = builder.finish();
-        assert_eq!(scene.dropped, Dropped { degenerate: 2, non_finite: 1 });
+        assert_eq!(scene.dropped, Dropped { degenerate: 2, non_finite: 1, curved: 0 });
         assert_eq!(scene.triangles.len(), 1);
         assert_eq!(scene.corners(0)[1], Vec3::X);
         assert_eq!(scene.warnings.len(), 2);

@@ -13,6 +13,20 @@ pub struct Material {
     pub shininess: f32,
     /// Where it is there.
     pub coverage: Coverage,
+    /// Share of light that is reflected as by a mirror, along a ray of its own.
+    pub mirror: [f32; 3],
+    /// What passes through it; `None` for a surface that lets nothing through.
+    pub transmission: Option<Transmission>,
+}
+
+/// How a surface lets light pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transmission {
+    /// The share that passes at each crossing of the surface, each channel in [0, 1], linear Rec. 709.
+    pub transmittance: [f32; 3],
+    /// Speed of light outside over speed inside, above 0; at 1 rays go straight on. Of a triangle the inside
+    /// is the side from which its corners go clockwise round.
+    pub refractive_index: f32,
 }
 
 /// Where a surface is there to be seen and to block light.
@@ -34,6 +48,8 @@ impl Default for Material {
             specular: [0.0; 3],
             shininess: 1.0,
             coverage: Coverage::Solid,
+            mirror: [0.0; 3],
+            transmission: None,
         }
     }
 }

@@ -7,7 +7,7 @@
 use super::formats::shading_normals;
 use super::{Coverage, Material, Object, ObjectInput, Scene, SceneBuilder, Shadowing};
 use super::{SmoothNormals, TextureCoordinates};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use glam::{DAffine3, Vec3};
 use std::collections::BTreeMap;
 
@@ -65,8 +65,9 @@ impl SceneBuilder {
     /// replaced by the face's.
     ///
     /// # Errors
-    /// [`Error::Usage`](crate::Error::Usage) if the placement's material does not exist or the scene grows
-    /// past 2^28 elements.
+    /// [`Error::Usage`] if the placement's material does not exist, a curved surface would not keep its kind
+    /// ([`Shape::transformed`](crate::geometry::curved::Shape::transformed)), or the scene grows past 2^28
+    /// elements.
     ///
     /// # Panics
     /// If the object is not one of the scene's.
@@ -99,7 +100,7 @@ impl SceneBuilder {
         };
         let mut input = ObjectInput { material, shadowing, ..copy(scene, object) };
         if let Some(transform) = &placement.transform {
-            transform_object(&mut input, transform);
+            transform_object(&mut input, transform)?;
         }
         self.add_object(input)
     }
@@ -118,7 +119,14 @@ fn copy(scene: &Scene, object: &Object) -> ObjectInput {
         let (coordinates, corners) = compact(&given.coordinates, &given.corners);
         TextureCoordinates { coordinates, corners }
     });
-    ObjectInput { normals, texture_coordinates, ..ObjectInput::new(&object.name, positions, triangles) }
+    let curved = object.first_curved as usize..(object.first_curved + object.curved_count) as usize;
+    ObjectInput {
+        polygons: Some(object.polygons),
+        curved: scene.curved[curved].iter().map(|primitive| primitive.shape).collect(),
+        normals,
+        texture_coordinates,
+        ..ObjectInput::new(&object.name, positions, triangles)
+    }
 }
 
 /// The elements that corners refer to, in their order, and the corners with the new numbers.
@@ -136,7 +144,11 @@ fn compact<T: Copy>(elements: &[T], corners: &[[u32; 3]]) -> (Vec<T>, Vec<[u32; 
     (used.iter().map(|&index| elements[index as usize]).collect(), corners)
 }
 
-fn transform_object(input: &mut ObjectInput, transform: &DAffine3) {
+fn transform_object(input: &mut ObjectInput, transform: &DAffine3) -> Result<()> {
+    for shape in &mut input.curved {
+        let placed = shape.transformed(transform);
+        *shape = placed.map_err(|why| Error::Usage(format!("object {}: {why}", input.name)))?;
+    }
     for position in &mut input.positions {
         *position = transform.transform_point3(position.as_dvec3()).as_vec3();
     }
@@ -153,6 +165,7 @@ fn transform_object(input: &mut ObjectInput, transform: &DAffine3) {
         }
         shading_normals::repair(normals, &input.positions, &input.triangles);
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! The world before anybody looks at it: objects made of triangles, materials, lights and cameras.
+//! The world before anybody looks at it: objects made of triangles and curved surfaces, materials, lights and
+//! cameras.
 //!
 //! Everything is in world space, in f32, after one rounding of the transforms; from then on those numbers
 //! are the scene, exactly. Objects are numbered as in the 1986 paper: object m, surface n, both from 1
@@ -12,19 +13,18 @@ mod framing;
 mod light;
 mod material;
 mod merge;
+mod primitive;
 
 pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
 pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
 pub use light::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, SpotLight};
-pub use material::{Coverage, Material};
+pub use material::{Coverage, Material, Transmission};
 pub use merge::{Adopted, Placement};
+pub use primitive::{CurvedPrimitive, Primitive, PrimitiveIndex};
 
 use glam::Vec3;
-
-/// Index of a triangle in [`Scene::triangles`].
-pub type PrimitiveIndex = u32;
 
 /// A triangle of a [`Scene`]: three indices into [`Scene::vertices`], and the object it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,17 +35,23 @@ pub struct Triangle {
     pub object: u32,
 }
 
-/// A run of triangles that share a name and a material: object m of the 1986 paper.
+/// Primitives that share a name and a material: object m of the 1986 paper.
 #[derive(Debug, Clone)]
 pub struct Object {
     /// The name that the scene file gives it.
     pub name: String,
     /// Index into [`Scene::materials`].
     pub material: u32,
-    /// First triangle in [`Scene::triangles`]; surface n (from 1) is triangle `first + n - 1`.
+    /// First triangle in [`Scene::triangles`].
     pub first: PrimitiveIndex,
     /// Number of triangles.
     pub count: u32,
+    /// First curved surface in [`Scene::curved`].
+    pub first_curved: u32,
+    /// Number of curved surfaces.
+    pub curved_count: u32,
+    /// Polygons that its triangles were cut from, as the scene file has them.
+    pub polygons: u32,
     /// Normals for shading alone; they never decide who sees a light.
     pub normals: Option<SmoothNormals>,
     /// Where its corners lie in the alpha mask of its material; there if and only if that is
@@ -70,7 +76,7 @@ impl Default for Shadowing {
     }
 }
 
-/// A scene, complete and checked: every index is in range, every number finite, no triangle degenerate.
+/// A scene, complete and checked: every index is in range, every number finite, no primitive degenerate.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// The name it is reported under: the file's name, or `builtin:NAME`.
@@ -79,6 +85,8 @@ pub struct Scene {
     pub vertices: Vec<Vec3>,
     /// All triangles, object by object.
     pub triangles: Vec<Triangle>,
+    /// All curved surfaces, object by object.
+    pub curved: Vec<CurvedPrimitive>,
     /// Objects, in the order of the file.
     pub objects: Vec<Object>,
     /// Materials, at least one.
@@ -102,6 +110,7 @@ impl Scene {
             name: name.into(),
             vertices: Vec::new(),
             triangles: Vec::new(),
+            curved: Vec::new(),
             objects: Vec::new(),
             materials: vec![Material::default()],
             alpha_masks: Vec::new(),
@@ -117,26 +126,19 @@ impl Scene {
         self.triangles[primitive as usize].vertices.map(|v| self.vertices[v as usize])
     }
 
-    /// Object m and surface n of a triangle, both counted from 1 as in the 1986 paper.
-    pub fn object_and_surface(&self, primitive: PrimitiveIndex) -> (u32, u32) {
-        let object = self.triangles[primitive as usize].object;
-        (object + 1, primitive - self.objects[object as usize].first + 1)
-    }
-
-    /// The object that a triangle belongs to.
+    /// The object that a primitive belongs to.
     pub fn object(&self, primitive: PrimitiveIndex) -> &Object {
-        &self.objects[self.triangles[primitive as usize].object as usize]
+        &self.objects[self.object_index(primitive) as usize]
     }
 
-    /// The material of a triangle.
+    /// The material of a primitive.
     pub fn material(&self, primitive: PrimitiveIndex) -> &Material {
-        let object = self.triangles[primitive as usize].object;
-        &self.materials[self.objects[object as usize].material as usize]
+        &self.materials[self.object(primitive).material as usize]
     }
 
     /// The mask of a triangle that has holes.
     pub fn masked(&self, primitive: PrimitiveIndex) -> Option<MaskedTriangle<'_>> {
-        if self.alpha_masks.is_empty() {
+        if self.alpha_masks.is_empty() || self.is_curved(primitive) {
             return None;
         }
         let object = self.object(primitive);
@@ -147,8 +149,8 @@ impl Scene {
         Some(MaskedTriangle { mask: &self.alpha_masks[mask as usize], coordinates })
     }
 
-    /// A hash of everything that shadows depend on: corners of all triangles, object by object, positions and
-    /// cones of lights, holes, and parts in shadows. FNV-1a in 64 bits, the same on every platform.
+    /// A hash of everything that shadows depend on: corners of all triangles and numbers of all curved surfaces,
+    /// object by object, positions and cones of lights, holes, transmittances, and parts in shadows. FNV-1a in 64 bits, the same on every platform.
     pub fn hash(&self) -> u64 {
         let corners = self.triangles.iter().flat_map(|t| {
             let corners = t.vertices.map(|v| self.vertices[v as usize].to_array());
@@ -172,7 +174,17 @@ impl Scene {
             (!(casts && receives)).then_some([number as u32, u32::from(casts), u32::from(receives)])
         };
         let parts = self.objects.iter().enumerate().filter_map(apart).flatten();
+        let curved = self.curved.iter().flat_map(|c| {
+            let numbers = c.shape.numbers().into_iter().map(f32::to_bits);
+            numbers.chain([c.object]).collect::<Vec<_>>()
+        });
+        let transparent = self.objects.iter().enumerate().filter_map(|(number, object)| {
+            let transmission = self.materials[object.material as usize].transmission?;
+            Some([number as u32].into_iter().chain(transmission.transmittance.map(f32::to_bits)))
+        });
         corners
+            .chain(curved)
+            .chain(transparent.flatten())
             .chain(lights)
             .chain(holes)
             .chain(parts)
@@ -182,9 +194,12 @@ impl Scene {
             })
     }
 
-    /// The smallest axis-aligned box around all triangles, or `None` for an empty scene.
+    /// A box along the axes around everything that has an end, or `None` if nothing has: the smallest around
+    /// triangles, and around boxes that hold the curved surfaces.
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        let mut corners = (0..self.triangles.len() as u32).flat_map(|t| self.corners(t));
+        let triangles = (0..self.triangles.len() as u32).flat_map(|t| self.corners(t));
+        let curved = self.curved.iter().filter_map(|c| c.shape.bounds());
+        let mut corners = triangles.chain(curved.flat_map(|(low, high)| [low, high]));
         let first = corners.next()?;
         Some(corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
     }

@@ -28,6 +28,7 @@ pub fn faces(point: &SurfacePoint, light: &Sides, eye: &Sides) -> bool {
         PointSource::Ray { primitive, .. } => {
             light.0[primitive as usize] * eye.0[primitive as usize] == Sign::Positive
         }
+        PointSource::OnCurved { .. } => todo!("points on curved surfaces"),
         PointSource::Bare => true,
     }
 }

@@ -6,6 +6,7 @@
 
 pub mod brute_force;
 mod counters;
+mod crossings;
 #[cfg(feature = "embree")]
 pub mod embree;
 pub mod exact;
@@ -17,12 +18,13 @@ mod solids;
 mod traced_ray;
 
 pub use counters::Counters;
+pub use crossings::Crossings;
 pub use registry::{Basis, Build, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find, testers};
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::{PrimitiveIndex, Scene};
@@ -32,11 +34,21 @@ use crate::visibility::SurfacePoint;
 ///
 /// Points must not face away from the light (see [`facing`]); answers for those that do are unspecified.
 pub trait ShadowTester: Send + Sync {
-    /// Sets `answers[i]` to whether `points[i]` is occluded. Both slices have the same length.
+    /// Sets `answers[i]` to whether `points[i]` is occluded, which transparent primitives have no part in. Both slices have the same length.
     ///
     /// # Errors
     /// If the tester cannot serve such points, or the library behind it fails.
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters>;
+
+    /// Appends to `crossings`, for each point in order, the transparent primitives that its open segment
+    /// crosses (row 19 of the notes on the 1986 paper, TRUTH "Transparent"). Asked only in scenes where
+    /// something transparent casts shadows, and only of points that are not occluded.
+    ///
+    /// # Errors
+    /// If the tester has no answer for transparent surfaces, or as [`occluded`](ShadowTester::occluded).
+    fn crossed(&self, _points: &[SurfacePoint], _crossings: &mut Crossings) -> Result<Counters> {
+        Err(Error::Usage("this shadow tester has no answer for transparent surfaces".into()))
+    }
 
     /// Memory that the tester keeps, in bytes.
     fn bytes(&self) -> usize;

@@ -2,6 +2,7 @@
 
 use super::FirstHits;
 use crate::geometry::ExactPosition;
+use crate::geometry::curved::Crossing;
 use crate::scene::{Camera, PrimitiveIndex, Scene};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -27,6 +28,17 @@ pub enum PointSource {
         /// The triangle, visible from the origin in this direction.
         primitive: PrimitiveIndex,
     },
+    /// The exact point where a ray passes through a curved surface of the scene.
+    OnCurved {
+        /// Start of the ray.
+        origin: Vec3,
+        /// Its direction, not normalised.
+        direction: Vec3,
+        /// The curved surface, visible from the origin in this direction.
+        primitive: PrimitiveIndex,
+        /// Which of the points where the ray's line meets it.
+        crossing: Crossing,
+    },
     /// A point of a caller's own; its coordinates are f32 numbers and exact.
     Bare,
 }
@@ -50,14 +62,18 @@ impl SurfacePoint {
             PointSource::Ray { origin, direction, primitive } => {
                 ExactPosition::OnRay { origin, direction, triangle: scene.corners(primitive) }
             }
+            PointSource::OnCurved { origin, direction, primitive, crossing } => {
+                let shape = *scene.shape(primitive).expect("the source of a point on a curved surface");
+                ExactPosition::OnCurved { origin, direction, shape, crossing }
+            }
             PointSource::Bare => ExactPosition::Bare(self.position.as_vec3()),
         }
     }
 
-    /// The triangle it lies on, if any: the base surface of the 1986 paper.
+    /// The primitive it lies on, if any: the base surface of the 1986 paper.
     pub fn primitive(&self) -> Option<PrimitiveIndex> {
         match self.source {
-            PointSource::Ray { primitive, .. } => Some(primitive),
+            PointSource::Ray { primitive, .. } | PointSource::OnCurved { primitive, .. } => Some(primitive),
             PointSource::Bare => None,
         }
     }

@@ -128,6 +128,7 @@ impl RelativePoint {
     pub fn new(position: &ExactPosition, light: &IntegerLight, scale: Scale) -> RelativePoint {
         let from = light.origin();
         match *position {
+            ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
             ExactPosition::Bare(p) => RelativePoint { xyz: minus(&scale.point(p), &from), w: IBig::ONE },
             ExactPosition::OnRay { origin, direction, triangle } => {
                 let [a, b, c] = triangle.map(|p| scale.point(p));
@@ -149,6 +150,7 @@ impl RelativePoint {
 /// The scale of everything that a position is made of, and of a light.
 pub fn scale_of(position: &ExactPosition, light: LightPosition) -> Scale {
     let own = match *position {
+        ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
         ExactPosition::Bare(p) => Scale::of([p]),
         ExactPosition::OnRay { origin, direction, triangle } => {
             Scale::of([origin, direction].into_iter().chain(triangle))

@@ -157,6 +157,7 @@ impl<'a> Arbiter<'a> {
         let absolute = absolute_box(&relative, self.light);
         let receiver = match point.source {
             PointSource::Ray { primitive, .. } => Some(primitive),
+            PointSource::OnCurved { .. } => todo!("points on curved surfaces"),
             PointSource::Bare => None,
         };
         let receiver_corners = receiver.map(|primitive| self.scene.corners(primitive));
@@ -210,6 +211,7 @@ fn origin_of(light: LightPosition) -> Box3 {
 fn relative_box(position: &ExactPosition, light: LightPosition) -> Box3 {
     let light = origin_of(light);
     match *position {
+        ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
         ExactPosition::Bare(p) => minus(&interval::point(p), &light),
         ExactPosition::OnRay { origin, direction, triangle } => {
             let [a, b, c] = triangle.map(interval::point);

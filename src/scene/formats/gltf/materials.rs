@@ -38,6 +38,7 @@ pub(super) fn convert(entry: &MaterialEntry, index: usize, coverage: Coverage) -
         specular: base.map(weight),
         shininess: shininess as f32,
         coverage,
+        ..Material::default()
     }
 }
 

@@ -109,5 +109,6 @@ pub(super) fn convert(material: &tobj::Material) -> Material {
         specular: material.specular.filter(|_| !matt).map_or(plain.specular, unit),
         shininess: material.shininess.map_or(plain.shininess, |n| n.clamp(1.0, 1000.0)),
         coverage: Coverage::Solid,
+        ..plain
     }
 }

@@ -174,5 +174,6 @@ fn material(entry: &MaterialEntry) -> Result<Material, String> {
         specular: entry.specular.map_or(plain.specular, |share| share.0),
         shininess: shininess as f32,
         coverage: Coverage::Solid,
+        ..plain
     })
 }
