@@ -79,7 +79,7 @@ pub(super) fn keep_nearer(stored: &mut Option<Hit>, new: Hit, scene: &Scene, ori
         Some(old) => {
             let order = new.parameter.certain_order(old.parameter).unwrap_or_else(|| {
                 let exact = |hit: &Hit| hit.exact_parameter(scene, origin, direction);
-                exact(&new).order(&exact(&old))
+                exact(&new).order(&exact(old))
             });
             order.then_with(|| tie_order(scene, new.primitive, old.primitive)) == Ordering::Less
         }

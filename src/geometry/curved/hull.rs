@@ -67,7 +67,7 @@ fn around_ball(shape: &Shape, centre: Vec3, axes: [DVec3; 3]) -> Hull {
     let longest = axes.iter().map(|axis| axis.length()).fold(0.0, f64::max);
     let thinnest = axes[0].dot(axes[1].cross(axes[2])).abs() / (longest * longest);
     let scale = unit * (1.0 + MARGIN + (allowance(centre) + longest * 2f64.powi(-40)) / thinnest);
-    if !(scale < 4.0) {
+    if scale.is_nan() || scale >= 4.0 {
         let (low, high) = shape.bounds().expect("a ball has an end");
         return box_between(low, high);
     }
