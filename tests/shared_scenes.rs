@@ -6,9 +6,9 @@
 
 use lightbuffer::measure::{answer, timed};
 use lightbuffer::scene::{Camera, Framing, ImageSize, Scene, formats, frame};
-use lightbuffer::shadow::facing::Sides;
+use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::{BuildInput, Resolution, SceneIndex, find};
-use lightbuffer::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
+use lightbuffer::verdict::{LightVerdict, Progress, check_arbiter, judge};
 use lightbuffer::visibility::{VisibleSurfaces, classical, t_buffer};
 use std::path::PathBuf;
 
@@ -95,9 +95,8 @@ impl View {
     fn queries(&self, size: ImageSize) -> Vec<Queries> {
         let hits = t_buffer::first_hits(&self.scene, &self.camera, size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
-        let eye = Sides::of(&self.scene, self.camera.origin);
         let lights = self.scene.lights.iter();
-        lights.map(|light| Queries::new(&self.scene, &visible, light, &eye)).collect()
+        lights.map(|light| Queries::new(&self.scene, &visible, light)).collect()
     }
 
     fn input(&self, light: usize, resolution: Resolution) -> BuildInput<'_> {

@@ -6,7 +6,8 @@ use crate::film::{CategoryMap, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
 use crate::shading::shade_picture;
-use crate::verdict::{LightVerdict, Queries, TesterRun};
+use crate::shadow::Queries;
+use crate::verdict::{LightVerdict, TesterRun};
 
 /// A preview and the word for it in its file name.
 pub struct Preview {

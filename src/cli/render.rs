@@ -10,8 +10,9 @@ use crate::film::{unique_safe_names, write_exr};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
+use crate::shadow::Queries;
 use crate::shadow::{Basis, TesterEntry, find};
-use crate::verdict::{LightVerdict, Queries, TesterRun, judge, run_tester};
+use crate::verdict::{LightVerdict, TesterRun, judge, run_tester};
 use serde::Serialize;
 use std::path::PathBuf;
 

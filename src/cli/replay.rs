@@ -9,9 +9,10 @@ use crate::report::replay::{
     LightFacts, MeetingFacts, PrimitiveFacts, RayFacts, Replay, Status, TracedFacts,
 };
 use crate::scene::{ImageSize, Light};
+use crate::shadow::Queries;
 use crate::shadow::exact::{Arbiter, Contact, Meeting, Occlusion};
 use crate::shadow::{Basis, REGISTRY};
-use crate::verdict::{Cause, Queries};
+use crate::verdict::Cause;
 use crate::visibility::SurfacePoint;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

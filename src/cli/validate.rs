@@ -10,8 +10,9 @@ use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
+use crate::shadow::Queries;
 use crate::shadow::{SceneIndex, TesterEntry};
-use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
+use crate::verdict::{LightVerdict, Progress, check_arbiter, judge};
 use std::path::{Path, PathBuf};
 
 /// Testers that would need more tests than this are skipped by name.

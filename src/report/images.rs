@@ -4,7 +4,8 @@ use crate::error::Result;
 use crate::film::{Category, CategoryMap, ImagePlanes, palette};
 use crate::scene::{ImageSize, Scene};
 use crate::shading::ShadedPoint;
-use crate::verdict::{LightVerdict, PixelVerdict, Queries};
+use crate::shadow::Queries;
+use crate::verdict::{LightVerdict, PixelVerdict};
 use crate::visibility::VisibleSurfaces;
 
 /// R G B A, Z, P, N, albedo and identifiers of a picture. The background is 0 with alpha 0 and Z infinite.

@@ -1,9 +1,7 @@
 //! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
 
-use crate::shadow::Basis;
-use crate::verdict::{
-    ArbiterCheck, CauseCounts, LightVerdict, Queries, TesterCounts, TesterResult, VerdictCounts,
-};
+use crate::shadow::{Basis, Queries};
+use crate::verdict::{ArbiterCheck, CauseCounts, LightVerdict, TesterCounts, TesterResult, VerdictCounts};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

@@ -1,10 +1,10 @@
 //! Every tester over the queries of one light, against the arbiter.
 
-use super::{Cause, CauseCounts, Queries, TesterCounts, VerdictCounts};
+use super::{Cause, CauseCounts, TesterCounts, VerdictCounts};
 use crate::error::Result;
 use crate::measure::{Timed, answer, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
-use crate::shadow::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
+use crate::shadow::{Basis, BuildInput, Counters, Queries, ShadowTester, TesterEntry};
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 

@@ -10,6 +10,7 @@ mod gradient;
 pub(crate) mod hull;
 mod meeting;
 mod on_line;
+mod ray_start;
 pub(crate) mod root;
 pub(crate) mod segment;
 mod shape;
@@ -18,8 +19,9 @@ pub(crate) mod tests;
 
 pub use crossing::Crossing;
 pub use defect::Defect;
-pub use first_hit::{CurvedHit, RayStart};
+pub use first_hit::CurvedHit;
 pub use meeting::Meetings;
+pub use ray_start::RayStart;
 pub use root::ExactParameter;
 pub use segment::Base;
 pub use shape::{Cone, Disc, Ellipsoid, InfinitePlane, Quadric, Shape, Sphere};
