@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
+use crate::shading::USUAL_DEPTH;
 use crate::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex};
 use clap::Args;
 use glam::Vec3;
@@ -73,6 +74,19 @@ pub fn parse_light_argument(text: &str) -> std::result::Result<LightArgument, St
 }
 
 /// What is done with it.
+/// How far rays are followed.
+#[derive(Debug, Args)]
+pub struct TreeOptions {
+    /// Most rays one behind the other in mirrors and glass, that from the camera included
+    #[arg(
+        long,
+        value_name = "RAYS",
+        default_value_t = USUAL_DEPTH,
+        value_parser = clap::value_parser!(u32).range(1..=64)
+    )]
+    pub depth: u32,
+}
+
 #[derive(Debug, Args)]
 pub struct RunOptions {
     /// Cells along an edge of the light buffer's cube: 1 to 4096, or auto
