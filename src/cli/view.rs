@@ -39,8 +39,8 @@ impl View {
         for warning in &scene.warnings {
             messages.warn(warning);
         }
-        if scene.triangles.is_empty() {
-            return Err(Error::input(&options.scene, Place::File, "the scene has no triangles to draw"));
+        if scene.primitive_count() == 0 {
+            return Err(Error::input(&options.scene, Place::File, "the scene has no primitives to draw"));
         }
         let framing = if options.no_floor { Framing::WithoutFloor } else { Framing::WithFloor };
         let added = frame(&mut scene, framing)?;
@@ -104,7 +104,8 @@ fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
 /// Replaces the lights of the scene by those of `--light` or `--lights`, all of one strength: together as
 /// bright at the scene's centre as the key light of a framed mesh.
 fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
-    let (low, high) = scene.bounds().expect("a scene with triangles");
+    // A scene that nothing in it bounds is looked at around the origin.
+    let (low, high) = scene.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
     let centre = low * 0.5 + high * 0.5;
     let positions = match options.rig {
         Some(count) => ring(centre, (high - low).length() * 0.5, count),
