@@ -102,7 +102,8 @@ fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
 /// Replaces the lights of the scene by those of `--light` or `--lights`, all of one strength: together as
 /// bright at the scene's centre as the key light of a framed mesh.
 fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
-    let (low, high) = scene.bounds().expect("a scene with triangles");
+    // A scene that nothing in it bounds is looked at around the origin.
+    let (low, high) = scene.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
     let centre = low * 0.5 + high * 0.5;
     let positions = match options.rig {
         Some(count) => ring(centre, (high - low).length() * 0.5, count),

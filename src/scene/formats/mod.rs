@@ -16,7 +16,7 @@ pub(super) mod shading_normals;
 mod text;
 mod toml;
 
-use super::Scene;
+use super::{Dropped, Scene};
 use crate::error::{Error, Place, Result};
 use std::path::Path;
 
@@ -26,7 +26,7 @@ use std::path::Path;
 /// Files that the scene names are read only from the folder that holds it, or from below.
 ///
 /// # Errors
-/// One line with file and place for whatever cannot be read, and for a file without a single triangle.
+/// One line with file and place for whatever cannot be read, and for a file without a single primitive.
 pub fn load(path: &Path) -> Result<Scene> {
     let scene = match Format::of(path) {
         Some(Format::Obj) => obj::load(path)?,
@@ -37,12 +37,13 @@ pub fn load(path: &Path) -> Result<Scene> {
         Some(Format::Toml) => toml::load(path)?,
         None => return Err(Error::input(path, Place::File, Format::EXPECTED)),
     };
-    if scene.triangles.is_empty() {
-        let dropped = scene.dropped.degenerate + scene.dropped.non_finite;
-        let why = match dropped {
-            0 => "expected at least one triangle, found none".to_owned(),
-            _ => format!(
-                "expected at least one triangle, found {dropped} of zero area or with non-finite corners"
+    if scene.primitive_count() == 0 {
+        let Dropped { degenerate, non_finite, curved } = scene.dropped;
+        let why = match degenerate + non_finite + curved {
+            0 => "expected at least one triangle or curved surface, found none".to_owned(),
+            dropped => format!(
+                "expected at least one triangle or curved surface, found {dropped} of zero area or with \
+                 numbers that are not finite or out of range"
             ),
         };
         return Err(Error::input(path, Place::File, why));
