@@ -5,7 +5,7 @@ use lightbuffer::embree::ShadowRay;
 /// The whole segment between two points; nothing excluded.
 pub fn segment(from: [f32; 3], to: [f32; 3]) -> ShadowRay {
     let direction = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-    ShadowRay { origin: from, t_near: 0.0, direction, t_far: 1.0, excluded: ShadowRay::NO_TRIANGLE }
+    ShadowRay { origin: from, t_near: 0.0, direction, t_far: 1.0, excluded: ShadowRay::NO_PRIMITIVE }
 }
 
 /// Numbers from a fixed sequence (SplitMix64).
@@ -83,12 +83,12 @@ pub fn soup(triangle_count: u32, ray_count: usize) -> Soup {
         let first = crossings.iter().position(|&met| met);
         let excluded = match first {
             Some(first) if soup.rays.len().is_multiple_of(3) => first as u32,
-            _ => ShadowRay::NO_TRIANGLE,
+            _ => ShadowRay::NO_PRIMITIVE,
         };
         let ray = ShadowRay { excluded, ..segment(from, to) };
         soup.rays.push(ray);
         soup.blocked.push(met > 0);
-        let passed = usize::from(excluded != ShadowRay::NO_TRIANGLE);
+        let passed = usize::from(excluded != ShadowRay::NO_PRIMITIVE);
         soup.blocked_without_excluded.push(met > passed);
     }
     soup
