@@ -9,8 +9,14 @@ use lightbuffer::embree::{
 
 use std::sync::LazyLock;
 
+#[path = "embree/curved.rs"]
+mod curved;
 #[path = "embree/meshes.rs"]
 mod meshes;
+#[path = "embree/shapes.rs"]
+mod shapes;
+#[path = "embree/transparent.rs"]
+mod transparent;
 use meshes::{bumpy_ball, segment, soup};
 
 /// The usual way to ask.
