@@ -20,6 +20,7 @@ mod rounding;
 mod sign;
 pub mod solid;
 pub mod texel;
+pub mod volume;
 
 pub use light_position::{LightPosition, LightSpace};
 pub use light_triangle::{Filtered, LightPoint, LightTriangle};

@@ -142,7 +142,7 @@ pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a
         if *c == Counters::default() {
             continue;
         }
-        let _ = writeln!(
+        let _ = write!(
             text,
             "{light} {}: {:.2} tests, {:.2} lists entered, {:.4} full occlusions, {:.5} undecided, \
              {:.6} exact a query",
@@ -153,6 +153,10 @@ pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a
             a_query(c.undecided),
             a_query(c.exact),
         );
+        if c.volume_tests > 0 {
+            let _ = write!(text, "; {:.2} bounding volumes", a_query(c.volume_tests));
+        }
+        text.push('\n');
         for (name, value) in &run.statistics {
             let _ = writeln!(text, "  {name}: {value}");
         }

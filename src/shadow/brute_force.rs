@@ -7,6 +7,7 @@ use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
 use crate::geometry::occlusion::{PreciseQuery, Stage};
 use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
+use std::ops::Range;
 
 /// `brute-force` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -19,7 +20,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
 /// All casters of a scene as one light sees them.
 pub struct BruteForce<'a> {
     scene: &'a Scene,
-    casters: Casters,
+    pub(super) casters: Casters,
     instruction_set: InstructionSet,
 }
 
@@ -44,18 +45,30 @@ impl<'a> BruteForce<'a> {
         lanes.fold(0, |lanes, (i, _)| lanes | 1 << i)
     }
 
-    fn answer_batch(&self, points: &[SurfacePoint], answers: &mut [bool], counters: &mut Counters) {
+    /// At most sixteen points, to be asked about again and again.
+    pub(super) fn batch<'p>(&self, points: &'p [SurfacePoint]) -> Batch<'p> {
         let relative: Vec<LightPoint> =
             points.iter().map(|p| LightPoint::new(&self.casters.space, p.position)).collect();
-        let batch = PointBatch::new(&relative);
-        let mut live = (u32::MAX >> (32 - points.len())) as u16;
-        let mut start = 0;
-        while let Some(stop) = batch.scan(self.instruction_set, &self.casters.planes, start, live) {
+        Batch { points, lanes: PointBatch::new(&relative), all: (u32::MAX >> (32 - points.len())) as u16 }
+    }
+
+    /// Those of the `live` points that some of the casters in a range block, a bit each.
+    pub(super) fn blocked(
+        &self,
+        batch: &Batch,
+        casters: Range<usize>,
+        mut live: u16,
+        counters: &mut Counters,
+    ) -> u16 {
+        let asked = live;
+        let mut start = casters.start;
+        let planes = &self.casters.planes[..casters.end];
+        while let Some(stop) = batch.lanes.scan(self.instruction_set, planes, start, live) {
             counters.tests += (stop.index + 1 - start) as u64 * u64::from(live.count_ones());
             start = stop.index + 1;
             let primitive = self.casters.primitives[stop.index];
-            let mut blocked = self.there(stop.blocked, primitive, points);
-            for (i, point) in points.iter().enumerate().filter(|(i, _)| stop.undecided >> i & 1 == 1) {
+            let mut blocked = self.there(stop.blocked, primitive, batch.points);
+            for (i, point) in batch.points.iter().enumerate().filter(|(i, _)| stop.undecided >> i & 1 == 1) {
                 // The base surface cannot block its own point (row 15 of the notes on the 1986 paper).
                 if point.primitive() == Some(primitive) {
                     continue;
@@ -69,21 +82,31 @@ impl<'a> BruteForce<'a> {
             }
             live &= !blocked;
             if live == 0 {
-                break;
+                return asked;
             }
         }
-        counters.tests += (self.casters.planes.len() - start) as u64 * u64::from(live.count_ones());
-        for (i, answer) in answers.iter_mut().enumerate() {
-            *answer = live >> i & 1 == 0;
-        }
+        counters.tests += (casters.end - start) as u64 * u64::from(live.count_ones());
+        asked & !live
     }
+}
+
+/// Points that are asked about together.
+pub(super) struct Batch<'p> {
+    points: &'p [SurfacePoint],
+    lanes: PointBatch,
+    /// A bit for each point.
+    pub all: u16,
 }
 
 impl ShadowTester for BruteForce<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
         let mut counters = Counters::default();
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
-            self.answer_batch(points, answers, &mut counters);
+            let batch = self.batch(points);
+            let blocked = self.blocked(&batch, 0..self.casters.planes.len(), batch.all, &mut counters);
+            for (i, answer) in answers.iter_mut().enumerate() {
+                *answer = blocked >> i & 1 == 1;
+            }
         }
         Ok(counters)
     }

@@ -4,6 +4,7 @@
 //! segment between them. Surfaces that face away from the light are dark before any tester is asked
 //! ([`facing`]).
 
+pub mod bounding_volumes;
 pub mod brute_force;
 mod counters;
 #[cfg(feature = "embree")]

@@ -1,6 +1,9 @@
 //! Every shadow tester there is. A tester that is not here is not cross-checked, and a test says so.
 
-use super::{Culling, Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
+use super::{
+    Culling, Receivers, Resolution, SceneIndex, ShadowTester, bounding_volumes, brute_force, exact,
+    light_buffer,
+};
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::MemoryLimit;
@@ -91,6 +94,7 @@ pub struct TesterEntry {
 pub const REGISTRY: &[TesterEntry] = &[
     exact::ENTRY,
     brute_force::ENTRY,
+    bounding_volumes::ENTRY,
     light_buffer::ENTRY,
     #[cfg(feature = "embree")]
     super::embree::ROBUST,
