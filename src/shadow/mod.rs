@@ -85,6 +85,17 @@ pub enum Culling {
     ClosedSolids,
 }
 
+/// When the light buffer puts the polygons of one object in a cell's list behind a bounding-volume record
+/// (row 8 of the notes on the 1986 paper). No answer depends on it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum VolumeThreshold {
+    /// Never.
+    #[default]
+    Off,
+    /// When the list holds more of them than this; the paper says 6.
+    MoreThan(u32),
+}
+
 /// Cells along the edge of a cube face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Resolution {

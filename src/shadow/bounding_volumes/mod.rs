@@ -11,6 +11,7 @@ use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::volume::{LightSegment, Volume};
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 use hierarchy::{Hierarchy, Member, Node};
 use std::ops::Range;
@@ -24,6 +25,31 @@ pub const ENTRY: TesterEntry = TesterEntry {
     expected_tests: |casters, queries| casters * queries,
 };
 
+/// An object that casts, as one light sees it.
+pub(super) struct CastObject {
+    /// Its index in the scene.
+    pub object: u32,
+    /// Its casters.
+    pub casters: Range<usize>,
+    /// Around the triangles of these.
+    pub volume: Volume,
+}
+
+/// The objects that some casters belong to, and volumes around them. `primitives` are the casters' triangles
+/// in the order of the scene, so that those of one object follow each other.
+pub(super) fn cast_objects(scene: &Scene, primitives: &[PrimitiveIndex]) -> Vec<CastObject> {
+    let object = |primitive: PrimitiveIndex| scene.triangles[primitive as usize].object;
+    let mut end = 0;
+    let around = |of_one: &[PrimitiveIndex]| {
+        let first = end;
+        end += of_one.len();
+        let corners = of_one.iter().flat_map(|&t| scene.corners(t));
+        let volume = Volume::around(corners).expect("an object has triangles");
+        CastObject { object: object(of_one[0]), casters: first..end, volume }
+    };
+    primitives.chunk_by(|&a, &b| object(a) == object(b)).map(around).collect()
+}
+
 /// The volumes of a scene's objects as one light sees them.
 pub struct BoundingVolumes<'a> {
     /// All casters, object by object.
@@ -36,23 +62,11 @@ pub struct BoundingVolumes<'a> {
 impl<'a> BoundingVolumes<'a> {
     /// Puts volumes around the objects and clusters them; `instruction_set` must be available.
     pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> BoundingVolumes<'a> {
-        let scene = input.scene;
         let casters = BruteForce::new(input, instruction_set);
-        let primitives = &casters.casters.primitives;
-        let mut objects: Vec<Range<usize>> = Vec::new();
-        // Triangles of one object follow each other.
-        for of_one in primitives
-            .chunk_by(|&a, &b| scene.triangles[a as usize].object == scene.triangles[b as usize].object)
-        {
-            let first = objects.last().map_or(0, |before| before.end);
-            objects.push(first..first + of_one.len());
-        }
-        let around = |object: &Range<usize>| {
-            let corners = primitives[object.clone()].iter().flat_map(|&t| scene.corners(t));
-            let volume = Volume::around(corners).expect("an object has triangles");
-            Member { volume, cost: object.len() as f64 }
-        };
-        let members: Vec<Member> = objects.iter().map(around).collect();
+        let objects = cast_objects(input.scene, &casters.casters.primitives);
+        let member = |o: &CastObject| Member { volume: o.volume, cost: o.casters.len() as f64 };
+        let members: Vec<Member> = objects.iter().map(member).collect();
+        let objects = objects.into_iter().map(|object| object.casters).collect();
         BoundingVolumes { casters, objects, hierarchy: Hierarchy::new(&members) }
     }
 
@@ -118,7 +132,7 @@ impl ShadowTester for BoundingVolumes<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{ObjectInput, Scene, SceneBuilder, Shadowing};
+    use crate::scene::{ObjectInput, SceneBuilder, Shadowing};
     use crate::shadow::SceneIndex;
     use glam::Vec3;
 
