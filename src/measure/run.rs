@@ -78,9 +78,7 @@ pub fn answer(
                 let mut counters = tester.occluded(points, answers)?;
                 let crossings = match question {
                     Question::Occlusion => None,
-                    Question::OcclusionAndCrossings => {
-                        Some(crossed(tester, points, answers, &mut counters)?)
-                    }
+                    Question::OcclusionAndCrossings => Some(crossed(tester, points, answers, &mut counters)?),
                 };
                 advance(points.len() as u64);
                 Ok((counters, crossings))

@@ -2,8 +2,8 @@
 
 use super::validation::{TesterReport, Totals, Validation, WrongPixel};
 use crate::film::grouped;
-use crate::shadow::{Counters, testers};
 use crate::shading::TreeStatistics;
+use crate::shadow::{Counters, testers};
 use crate::verdict::{Cause, TesterRun};
 use crate::visibility::FirstHits;
 use std::fmt::Write;
@@ -157,7 +157,7 @@ pub fn statistics<'a>(
         if *c == Counters::default() {
             continue;
         }
-        let _ = writeln!(
+        let _ = write!(
             text,
             "{light} {}: {:.2} tests, {:.2} lists entered, {:.4} full occlusions, {:.5} undecided, \
              {:.6} exact a query",
@@ -168,6 +168,10 @@ pub fn statistics<'a>(
             a_query(c.undecided),
             a_query(c.exact),
         );
+        if c.volume_tests > 0 {
+            let _ = write!(text, "; {:.2} bounding volumes", a_query(c.volume_tests));
+        }
+        text.push('\n');
         for (name, value) in &run.statistics {
             let _ = writeln!(text, "  {name}: {value}");
         }

@@ -12,6 +12,6 @@ mod shade;
 
 pub use light::{LightSample, sample_light};
 pub use normal::{geometric_normal, normal_at, shading_normal};
-pub use ray_tree::{Branch, Kind, RayForest, TreeStatistics, USUAL_DEPTH, branches, reflected, refracted};
 pub use picture::{ShadedPoint, shade_picture};
+pub use ray_tree::{Branch, Kind, RayForest, TreeStatistics, USUAL_DEPTH, branches, reflected, refracted};
 pub use shade::{Ambient, shade};

@@ -60,7 +60,8 @@ pub fn shade(
         if lambert <= 0.0 {
             continue;
         }
-        let highlight = if cosine > 0.0 { phong(material, normal, view, light.towards, lambert) } else { 0.0 };
+        let highlight =
+            if cosine > 0.0 { phong(material, normal, view, light.towards, lambert) } else { 0.0 };
         for (i, channel) in radiance.iter_mut().enumerate() {
             let reflected =
                 f64::from(material.diffuse[i]) * lambert + f64::from(material.specular[i]) * highlight;

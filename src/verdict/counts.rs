@@ -99,7 +99,14 @@ mod tests {
         let counts = TesterCounts::new(&[true, false, true, false], &[false, true, true, false], 5);
         assert_eq!(
             counts,
-            TesterCounts { shadowed: 2, false_shadow: 1, false_light: 1, wrong: 2, undecided: 5, ..TesterCounts::default() }
+            TesterCounts {
+                shadowed: 2,
+                false_shadow: 1,
+                false_light: 1,
+                wrong: 2,
+                undecided: 5,
+                ..TesterCounts::default()
+            }
         );
     }
 }

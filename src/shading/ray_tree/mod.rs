@@ -130,15 +130,11 @@ impl RayForest {
 
     fn trace(&mut self, scene: &Scene, hierarchy: &Hierarchy, twigs: &[Twig]) {
         let point = |ray: &Ray, FirstHit { primitive, crossing }: FirstHit| match crossing {
-            Some(crossing) => {
-                SurfacePoint::on_curved(scene, ray.origin, ray.direction, primitive, crossing)
-            }
+            Some(crossing) => SurfacePoint::on_curved(scene, ray.origin, ray.direction, primitive, crossing),
             None => SurfacePoint::on_ray(scene, ray.origin, ray.direction, primitive),
         };
-        let hits: Vec<_> = twigs
-            .par_iter()
-            .map(|twig| Some(point(&twig.ray, hierarchy.first_hit(&twig.ray)?)))
-            .collect();
+        let hits: Vec<_> =
+            twigs.par_iter().map(|twig| Some(point(&twig.ray, hierarchy.first_hit(&twig.ray)?))).collect();
         for (twig, hit) in twigs.iter().zip(hits) {
             match hit {
                 Some(point) => {
