@@ -25,7 +25,7 @@ mod tests {
     #[test]
     fn a_mirror_turns_the_part_along_the_normal() {
         let direction = DVec3::new(0.6, -0.8, 0.0);
-        assert_relative_eq!(reflected(direction, DVec3::Y), DVec3::new(0.6, 0.8, 0.0), epsilon = 1e-15);
+        assert!((reflected(direction, DVec3::Y) - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-15);
     }
 
     #[test]
@@ -35,7 +35,7 @@ mod tests {
         assert_relative_eq!(bent.length(), 1.0, epsilon = 1e-15);
         assert_relative_eq!(bent.x, 0.6 / 1.5, epsilon = 1e-15);
         assert!(bent.y < 0.0);
-        assert_relative_eq!(refracted(direction, DVec3::Y, 1.0).unwrap(), direction, epsilon = 1e-15);
+        assert!((refracted(direction, DVec3::Y, 1.0).unwrap() - direction).length() < 1e-15);
     }
 
     #[test]
