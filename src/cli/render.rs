@@ -95,7 +95,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let mut lights = Vec::new();
     for light in &view.scene.lights {
         let position = light.position();
-        let queries = Queries::new(&view.scene, &seen.visible, light, &seen.eye);
+        let queries = Queries::new(&view.scene, &seen.visible, light);
         let input = args.run.build_input(&view.scene, &index, position);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = if args.no_verdict {

@@ -86,7 +86,7 @@ fn document(args: &Args, view: &View, seen: &Seen, light: &Light) -> Result<Repl
     let ImageSize { width, height } = seen.hits.size;
     let pixel = args.pixel[1] * width + args.pixel[0];
     let point = seen.visible.pixels.iter().position(|&p| p == pixel).map(|i| seen.visible.points[i]);
-    let queries = Queries::new(scene, &seen.visible, light, &seen.eye);
+    let queries = Queries::new(scene, &seen.visible, light);
     let direction = view.camera.direction(&view.camera.raster(seen.hits.size), args.pixel[0], args.pixel[1]);
     let mut replay = Replay {
         scene: scene.name.clone(),

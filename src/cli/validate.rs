@@ -82,7 +82,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let mut judged = Vec::new();
     for light in &view.scene.lights {
         let position = light.position();
-        let queries = Queries::new(&view.scene, &seen.visible, light, &seen.eye);
+        let queries = Queries::new(&view.scene, &seen.visible, light);
         let input = args.run.build_input(&view.scene, &index, position);
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);

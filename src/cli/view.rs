@@ -7,7 +7,6 @@ use crate::memory::MemoryLimit;
 use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
 use crate::shading::ShadedPoint;
 use crate::shadow::REGISTRY;
-use crate::shadow::facing::Sides;
 use crate::visibility::{FirstHits, SurfacePoint, VisibleSurfaces, t_buffer};
 use glam::Vec3;
 
@@ -39,8 +38,8 @@ impl View {
         for warning in &scene.warnings {
             messages.warn(warning);
         }
-        if scene.triangles.is_empty() {
-            return Err(Error::input(&options.scene, Place::File, "the scene has no triangles to draw"));
+        if scene.primitive_count() == 0 {
+            return Err(Error::input(&options.scene, Place::File, "the scene has no primitives to draw"));
         }
         let framing = if options.no_floor { Framing::WithoutFloor } else { Framing::WithFloor };
         let added = frame(&mut scene, framing)?;
@@ -53,7 +52,7 @@ impl View {
         Ok(View { scene, camera, size, added })
     }
 
-    /// First hits by the t-buffer, the points behind them, and the camera's side of every triangle.
+    /// First hits by the t-buffer, and the points behind them.
     ///
     /// # Errors
     /// If the image with the masks of all lights would need more memory than the limit.
@@ -68,8 +67,7 @@ impl View {
         limit.check(what, self.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
         let hits = t_buffer::first_hits(&self.scene, &self.camera, self.size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
-        let eye = Sides::of(&self.scene, self.camera.origin);
-        Ok(Seen { hits, visible, eye })
+        Ok(Seen { hits, visible })
     }
 }
 
@@ -86,8 +84,6 @@ pub struct Seen {
     pub hits: FirstHits,
     /// The visible points.
     pub visible: VisibleSurfaces,
-    /// Sides of all planes that the camera is on.
-    pub eye: Sides,
 }
 
 fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {

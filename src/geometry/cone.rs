@@ -1,9 +1,9 @@
 //! Whether a point is inside the cone of a spot light, exactly.
 
+use super::number::{Number, dot, vector};
 use super::position::HomogeneousPoint;
-use super::rounding::units;
+use super::surd::Surd;
 use super::{ExactPosition, ROUNDOFF, Sign};
-use dashu_int::IBig;
 use glam::{DVec3, Vec3};
 
 /// The points that a spot light at the apex shines on: those whose exact cosine from the axis is above a
@@ -37,16 +37,15 @@ impl LightCone {
         }
     }
 
-    /// Products of degree 12 are beyond what floats hold, so in integers: xyz and axis in units of 2^-1074.
+    /// Products of degree 12 are beyond what floats hold.
     fn holds_exactly(&self, point: &HomogeneousPoint) -> bool {
-        let v = point.xyz.each_ref().map(units);
-        let axis = self.axis.to_array().map(|x| units(&x.into()));
-        let dot = |a: &[IBig; 3], b: &[IBig; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
+        let v = point.xyz.each_ref().map(|x| x.to_surd());
+        let axis = vector::<Surd>(self.axis);
         let along = dot(&v, &axis);
-        // The cosine brings a unit of its own on the other side.
-        let scaled = &along * (IBig::ONE << 1074usize);
-        let cosine = units(&self.cosine.into());
-        along > IBig::ZERO && &scaled * &scaled > &cosine * &cosine * dot(&v, &v) * dot(&axis, &axis)
+        let sizes = dot(&v, &v).times(&dot(&axis, &axis));
+        let cosine = Surd::exactly(self.cosine);
+        let difference = along.squared().minus(&cosine.squared().times(&sizes));
+        along.exact_sign() == Sign::Positive && difference.exact_sign() == Sign::Positive
     }
 }
 

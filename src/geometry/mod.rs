@@ -5,14 +5,19 @@
 //! is asked, and the last one is exact expansion arithmetic.
 
 pub mod batch;
+mod bounded;
+mod bounded_double;
 pub mod cone;
 pub mod convexity;
 pub mod curved;
 mod double_double;
+mod dyadic;
+pub mod exact_number;
 pub mod expansion;
 pub mod footprint;
 mod light_position;
 pub mod light_triangle;
+mod number;
 pub mod occlusion;
 pub mod planes;
 pub mod position;
@@ -20,6 +25,7 @@ pub mod ray_triangle;
 mod rounding;
 mod sign;
 pub mod solid;
+pub mod surd;
 pub mod texel;
 
 pub use light_position::{LightPosition, LightSpace};

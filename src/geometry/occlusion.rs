@@ -1,6 +1,9 @@
 //! What the float filter leaves open, decided in f64 with a bound and then exactly.
 
-use super::expansion::{self, Expansion};
+use super::curved::segment::{self, Base};
+use super::curved::{Meetings, Shape};
+use super::exact_number::{self, ExactNumber, ExactVector};
+use super::expansion;
 use super::planes::{OrientedPlanes, oriented};
 use super::position::{ExactPosition, HomogeneousPoint};
 use super::texel::{Place, TexelAxis, Weights};
@@ -50,6 +53,38 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         (self.rounded.abs() + difference.abs()) * (2.0 * ROUNDOFF)
     }
 
+    /// Whether the open segment crosses the triangle, where a segment that meets an edge is decided as if the
+    /// point were moved by (e, e^2, e^3) for a very small e > 0 and stayed on its side of the triangle's plane: of
+    /// triangles that share the edge and lie on different sides of it, one is crossed.
+    pub fn crosses(&self, corners: [Vec3; 3]) -> (bool, Stage) {
+        let Some(corners) = oriented(self.space.light(), corners) else { return (false, Stage::Double) };
+        // Inside in f64 is strictly inside.
+        if let Some(answer) = self.blocks_in_f64(corners) {
+            return (answer, Stage::Double);
+        }
+        let is_inside = |i: usize| match self.exact_edge(corners, i).sign() {
+            Sign::Zero => self.perturbed_edge(corners, i) == Sign::Positive,
+            sign => sign == Sign::Positive,
+        };
+        ((0..3).all(is_inside) && self.is_beyond(corners), Stage::Exact)
+    }
+
+    /// Where the point moves to against an edge that the segment meets: the first component of the edge's
+    /// plane that is not zero decides.
+    fn perturbed_edge(&self, corners: [Vec3; 3], i: usize) -> Sign {
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        let normal = match self.space.light() {
+            LightPosition::At(light) => {
+                expansion::cross(&expansion::difference(a, light), &expansion::difference(b, light))
+            }
+            LightPosition::Towards(direction) => {
+                let direction = direction.to_array().map(expansion::Expansion::from);
+                expansion::cross(&expansion::difference(b, a), &direction)
+            }
+        };
+        normal.iter().map(|n| n.sign()).find(|&sign| sign != Sign::Zero).unwrap_or(Sign::Zero)
+    }
+
     fn blocks_in_f64(&self, corners: [Vec3; 3]) -> Option<bool> {
         let corners = corners.map(Vec3::as_dvec3);
         let planes = OrientedPlanes::new(&self.space, corners);
@@ -83,36 +118,51 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
     }
 
     /// The same exactly.
-    fn exact_edge(&self, corners: [Vec3; 3], i: usize) -> Expansion {
+    fn exact_edge(&self, corners: [Vec3; 3], i: usize) -> ExactNumber {
         let p = self.exact();
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         match self.space.light() {
             LightPosition::At(light) => {
                 let (u, v) = (expansion::difference(a, light), expansion::difference(b, light));
-                expansion::dot(&expansion::cross(&u, &v), &p.xyz)
+                exact_number::dot(&exact_number::vector(expansion::cross(&u, &v)), &p.xyz)
             }
             LightPosition::Towards(direction) => {
-                let direction = direction.to_array().map(Expansion::from);
+                let direction = direction.to_array().map(expansion::Expansion::from);
                 let normal = expansion::cross(&expansion::difference(b, a), &direction);
-                expansion::dot(&normal, &self.beyond_corner(a))
+                exact_number::dot(&exact_number::vector(normal), &self.beyond_corner(a))
             }
         }
     }
 
     /// The exact point relative to a corner, times its denominator.
-    fn beyond_corner(&self, corner: Vec3) -> [Expansion; 3] {
-        let (p, u) = (self.exact(), expansion::difference(corner, self.space.origin()));
+    fn beyond_corner(&self, corner: Vec3) -> ExactVector {
+        let u = exact_number::vector(expansion::difference(corner, self.space.origin()));
+        let p = self.exact();
         std::array::from_fn(|k| &p.xyz[k] - &(&u[k] * &p.w))
     }
 
     /// Corners are in the order of positive orientation.
     fn blocks_exactly(&self, corners: [Vec3; 3]) -> bool {
-        if (0..3).any(|i| self.exact_edge(corners, i).sign() == Sign::Negative) {
-            return false;
-        }
+        (0..3).all(|i| self.exact_edge(corners, i).sign() != Sign::Negative) && self.is_beyond(corners)
+    }
+
+    /// Whether the point is strictly behind the triangle's plane, as the light sees it.
+    fn is_beyond(&self, corners: [Vec3; 3]) -> bool {
         let [a, b, c] = corners;
         let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
-        expansion::dot(&normal, &self.beyond_corner(a)).sign() == Sign::Positive
+        exact_number::dot(&exact_number::vector(normal), &self.beyond_corner(a)).sign() == Sign::Positive
+    }
+
+    /// How the open segment between point and light meets a curved surface.
+    pub fn meets(&self, shape: &Shape, base: Base) -> (Meetings, Stage) {
+        let (light, origin) = (self.space.light(), self.space.origin());
+        segment::meets(shape, base, light, self.rounded, || self.exact(), origin)
+    }
+
+    /// The side of a curved surface's tangent plane that the light is on, at this point of the surface.
+    pub fn side_of_light(&self, shape: &Shape) -> Sign {
+        let (light, origin) = (self.space.light(), self.space.origin());
+        segment::side_of_light(shape, light, self.rounded, || self.exact(), origin)
     }
 
     /// The texels of an image that the segment passes through a triangle that blocks it.

@@ -126,6 +126,17 @@ impl OrientedPlanes {
         }
     }
 
+    /// A triangle of a hull seen from an apex, whichever way its corners go round; `None` if it is seen so nearly
+    /// edge-on that the hull's margin covers what it would cover.
+    pub fn of_hull(apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<OrientedPlanes> {
+        let planes = OrientedPlanes::from_apex(apex, [a, b, c]);
+        let (height, bound) = planes.height;
+        match Sign::certain(height, bound)? {
+            Sign::Positive => Some(planes),
+            _ => Some(OrientedPlanes::from_apex(apex, [a, c, b])),
+        }
+    }
+
     /// Seen by a light.
     pub fn new(space: &LightSpace, corners: [DVec3; 3]) -> OrientedPlanes {
         let origin = space.origin().as_dvec3();

@@ -1,9 +1,12 @@
 //! Where a point is, exactly, and the f64 point nearest to it.
 
 use super::ROUNDOFF;
+use super::curved::root;
 use super::curved::{Crossing, Shape};
 use super::double_double::DoubleDouble;
-use super::expansion::{self, ExactVector, Expansion};
+use super::exact_number::{self, ExactNumber, ExactVector};
+use super::expansion::{self, Expansion};
+use super::surd::Surd;
 use glam::{DVec3, Vec3};
 
 /// An exact position in space.
@@ -33,23 +36,32 @@ pub enum ExactPosition {
     Bare(Vec3),
 }
 
-/// A point in homogeneous coordinates with w > 0, relative to some origin: of degree 4, 4, 4, 3 in the
-/// inputs.
+/// A point in homogeneous coordinates with w > 0, relative to some origin. Of degree 4, 4, 4, 3 in the inputs on
+/// a triangle, and with a square root on a curved surface.
 #[derive(Debug, Clone)]
 pub struct HomogeneousPoint {
     /// Coordinates times `w`.
     pub xyz: ExactVector,
     /// The positive denominator.
-    pub w: Expansion,
+    pub w: ExactNumber,
 }
 
 impl ExactPosition {
     /// The exact position relative to `origin`, with a positive denominator.
     pub fn relative_to(&self, origin: Vec3) -> HomogeneousPoint {
         match *self {
-            ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
             ExactPosition::Bare(p) => {
-                HomogeneousPoint { xyz: expansion::difference(p, origin), w: Expansion::from(1.0) }
+                let xyz = exact_number::vector(expansion::difference(p, origin));
+                HomogeneousPoint { xyz, w: ExactNumber::from(1.0) }
+            }
+            ExactPosition::OnCurved { origin: o, direction, shape, crossing } => {
+                let t = root::exact_parameter(o, direction, &shape, crossing);
+                let w = ExactNumber::Surd(Surd::rational(t.denominator));
+                let t = ExactNumber::Surd(t.numerator);
+                let start = exact_number::vector(expansion::difference(o, origin));
+                let d = direction.to_array().map(ExactNumber::from);
+                let xyz = [0, 1, 2].map(|i| &(&start[i] * &w) + &(&d[i] * &t));
+                HomogeneousPoint { xyz, w }
             }
             ExactPosition::OnRay { origin: o, direction, triangle: [a, b, c] } => {
                 let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
@@ -61,7 +73,7 @@ impl ExactPosition {
                 }
                 let start = expansion::difference(o, origin);
                 let xyz = [0, 1, 2].map(|i| &(&start[i] * &w) + &(&d[i] * &t));
-                HomogeneousPoint { xyz, w }
+                HomogeneousPoint { xyz: exact_number::vector(xyz), w: w.into() }
             }
         }
     }
@@ -69,12 +81,17 @@ impl ExactPosition {
     /// The position with each coordinate correctly rounded to f64.
     pub fn rounded(&self) -> DVec3 {
         match *self {
-            ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
             ExactPosition::Bare(p) => p.as_dvec3(),
             ExactPosition::OnRay { origin, direction, triangle } => {
                 round_in_double_double(origin, direction, triangle).unwrap_or_else(|| {
                     let exact = self.relative_to(Vec3::ZERO);
-                    DVec3::from_array([0, 1, 2].map(|i| exact.xyz[i].divide_rounded(&exact.w)))
+                    DVec3::from_array(exact.xyz.map(|x| x.divide_rounded(&exact.w)))
+                })
+            }
+            ExactPosition::OnCurved { origin, direction, shape, crossing } => {
+                root::rounded(origin, direction, &shape, crossing).unwrap_or_else(|| {
+                    let exact = self.relative_to(Vec3::ZERO);
+                    DVec3::from_array(exact.xyz.map(|x| x.divide_rounded(&exact.w)))
                 })
             }
         }
@@ -149,7 +166,7 @@ mod tests {
             let position = ExactPosition::OnRay { origin: o, direction: d, triangle: [a, b, c] };
             let exact = position.relative_to(Vec3::ZERO);
             prop_assume!(exact.w.sign() == crate::geometry::Sign::Positive);
-            let expected = [0, 1, 2].map(|i| exact.xyz[i].divide_rounded(&exact.w));
+            let expected = exact.xyz.map(|x| x.divide_rounded(&exact.w));
             prop_assert_eq!(position.rounded().to_array(), expected);
         }
     }

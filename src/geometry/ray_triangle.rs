@@ -4,6 +4,7 @@
 //! ordered so that det(u0, u1, u2) > 0, a direction d hits the closed triangle at some t > 0 exactly if
 //! (ui x uj) . d >= 0 for the three edges. Then t = h / (N . d), a quotient of positive numbers of degree 3.
 
+use super::curved::ExactParameter;
 use super::expansion::{self, Expansion};
 use super::planes::{OrientedPlanes, oriented};
 use super::texel::{Place, TexelAxis, Weights};
@@ -75,28 +76,24 @@ impl RayTriangle {
         // Each edge function is the weight of the corner across.
         let edges = [1, 2, 0];
         let rounded = edges.map(|k| self.planes.edges[k].dot(direction.as_dvec3(), DVec3::ZERO));
-        Weights { rounded, exact: || edges.map(|k| self.exact_edge(k, direction)) }.texels(&axes)
-    }
-
-    /// Exact h and N . d, both positive for a direction that hits.
-    fn exact_quotient(&self, direction: Vec3) -> (Expansion, Expansion) {
-        let [a, b, c] = self.oriented;
-        let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
-        (
-            expansion::dot(&normal, &expansion::difference(a, self.origin)),
-            expansion::dot(&normal, &direction.to_array().map(Expansion::from)),
-        )
+        Weights { rounded, exact: || edges.map(|k| self.exact_edge(k, direction).into()) }.texels(&axes)
     }
 
     /// Order of the hits of one ray with two triangles of the same origin, exactly.
     pub fn exact_order(direction: Vec3, first: &RayTriangle, second: &RayTriangle) -> Ordering {
-        let (h1, d1) = first.exact_quotient(direction);
-        let (h2, d2) = second.exact_quotient(direction);
-        match (&(&h1 * &d2) - &(&h2 * &d1)).sign() {
-            Sign::Negative => Ordering::Less,
-            Sign::Zero => Ordering::Equal,
-            Sign::Positive => Ordering::Greater,
-        }
+        let place = |t: &RayTriangle| exact_parameter(t.origin, direction, t.oriented);
+        place(first).order(&place(second))
+    }
+}
+
+/// Where the line of a ray meets the plane of a triangle that it is not parallel to, exactly.
+pub fn exact_parameter(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -> ExactParameter {
+    let normal = expansion::cross(&expansion::difference(b, a), &expansion::difference(c, a));
+    let height = expansion::dot(&normal, &expansion::difference(a, origin));
+    let slope = expansion::dot(&normal, &direction.to_array().map(Expansion::from));
+    match slope.sign() {
+        Sign::Negative => ExactParameter::quotient(&-&height, &-&slope),
+        _ => ExactParameter::quotient(&height, &slope),
     }
 }
 
@@ -128,7 +125,8 @@ mod tests {
         for direction in [b, c, b + c] {
             let (t, s) = (first.hit(direction).unwrap(), second.hit(direction).unwrap());
             assert_eq!(t.certain_order(s), None);
-            assert_eq!(RayTriangle::exact_order(direction, &first, &second), Ordering::Equal);
+            let [first, second] = [[a, b, c], [b, c, d]].map(|t| exact_parameter(Vec3::ZERO, direction, t));
+            assert_eq!(first.order(&second), Ordering::Equal);
         }
         assert!(first.hit(-b).is_none());
         assert!(second.hit(a).is_none());

@@ -4,9 +4,12 @@
 //! coordinate u is (w0 u0 + w1 u1 + w2 u2) / (w0 + w1 + w2), and in an image of n texels the place is the
 //! floor of n u. Weights are the edge functions of a ray or segment, of degree 6 in the inputs at most.
 
-use super::ROUNDOFF;
-use super::expansion::Expansion;
+use super::dyadic::Dyadic;
+use super::exact_number::ExactNumber;
+use super::number::{Number, dot};
 use super::rounding::units;
+use super::surd::Surd;
+use super::{ROUNDOFF, Sign};
 use dashu_int::IBig;
 use dashu_int::ops::DivRemEuclid;
 
@@ -37,7 +40,7 @@ pub struct Weights<F> {
     pub exact: F,
 }
 
-impl<F: Fn() -> [Expansion; 3]> Weights<F> {
+impl<F: Fn() -> [ExactNumber; 3]> Weights<F> {
     /// The texels of two axes that the point shows, counted from coordinate 0 over all repetitions of the
     /// image. Places beyond 64 bits are moved by multiples of twice the size, which no repetition notices.
     pub fn texels(&self, axes: &[TexelAxis; 2]) -> [Place; 2] {
@@ -82,13 +85,47 @@ pub enum Place {
     },
 }
 
-fn exact_place(weights: &[Expansion; 3], axis: &TexelAxis) -> Place {
+fn exact_place(weights: &[ExactNumber; 3], axis: &TexelAxis) -> Place {
+    let [ExactNumber::Expansion(w0), ExactNumber::Expansion(w1), ExactNumber::Expansion(w2)] = weights else {
+        return place_by_signs(weights, axis);
+    };
     // Weights and coordinates count in units of 2^-1074 each, so the quotient counts in one too.
-    let weights = weights.each_ref().map(units);
+    let weights = [w0, w1, w2].map(units);
     let sum = &weights[0] + &weights[1] + &weights[2];
     let weighted = |i: usize| &weights[i] * units(&axis.coordinates[i].into());
     let numerator = (weighted(0) + weighted(1) + weighted(2)) * IBig::from(axis.size);
     let (place, _) = numerator.div_rem_euclid(sum << 1074usize);
+    place_of(place, axis)
+}
+
+/// The same for numbers with a square root: the floor of a quotient by bisection with exact signs.
+fn place_by_signs(weights: &[ExactNumber; 3], axis: &TexelAxis) -> Place {
+    let weights = weights.each_ref().map(|w| w.to_surd());
+    let sum = weights[0].plus(&weights[1]).plus(&weights[2]);
+    let numerator = dot(&weights, &axis.coordinates.map(Surd::exactly));
+    let numerator = numerator.times(&Surd::rational(Dyadic::from_f64(f64::from(axis.size))));
+    let is_at_least = |place: &IBig| {
+        let scaled = sum.times(&Surd::rational(Dyadic::from_integer(place.clone())));
+        numerator.minus(&scaled).exact_sign() != Sign::Negative
+    };
+    let mut reach = IBig::ONE;
+    while is_at_least(&reach) || !is_at_least(&-&reach) {
+        reach <<= 8;
+    }
+    let (mut low, mut high) = (-&reach, reach);
+    while &high - &low > IBig::ONE {
+        let middle: IBig = (&low + &high) >> 1;
+        if is_at_least(&middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    place_of(low, axis)
+}
+
+/// A place counted from coordinate 0.
+fn place_of(place: IBig, axis: &TexelAxis) -> Place {
     i64::try_from(&place).map_or_else(
         |_| {
             let period = IBig::from(2 * i64::from(axis.size));
@@ -110,7 +147,7 @@ mod tests {
 
     fn texels(weights: [f32; 3], error: f64, coordinates: [f32; 3], size: u32) -> Place {
         let axis = TexelAxis { coordinates, size };
-        let exact = || weights.map(Expansion::from);
+        let exact = || weights.map(ExactNumber::from);
         Weights { rounded: weights.map(|w| (f64::from(w), error)), exact }.texels(&[axis; 2])[0]
     }
 
@@ -153,7 +190,7 @@ mod tests {
             let axis = TexelAxis { coordinates, size };
             for bound in [1e-12, 1e-6, 1e-3] {
                 let rounded = weights.map(|w| (f64::from(w) + noise * bound, bound));
-                let found = Weights { rounded, exact: || weights.map(Expansion::from) }.texels(&[axis; 2])[0];
+                let found = Weights { rounded, exact: || weights.map(ExactNumber::from) }.texels(&[axis; 2])[0];
                 prop_assert_eq!(found, exact);
             }
         }

@@ -10,6 +10,6 @@ mod picture;
 mod shade;
 
 pub use light::{LightSample, sample_light};
-pub use normal::{geometric_normal, shading_normal};
+pub use normal::{geometric_normal, normal_at, shading_normal};
 pub use picture::{ShadedPoint, shade_picture};
 pub use shade::{Ambient, shade};

@@ -1,7 +1,38 @@
 //! Normals for shading. None of them ever decides who sees a light.
 
-use crate::scene::SmoothNormals;
+use crate::scene::{Primitive, PrimitiveIndex, Scene, SmoothNormals};
 use glam::{DVec3, Vec3};
+
+/// The unit normal that a point of a primitive is shaded with, on the side that the viewer is on; `view` is the
+/// unit vector to the viewer.
+pub fn normal_at(scene: &Scene, primitive: PrimitiveIndex, position: DVec3, view: DVec3) -> DVec3 {
+    match scene.primitive(primitive) {
+        Primitive::Triangle(corners) => {
+            let object = scene.object(primitive);
+            let geometric = geometric_normal(corners, view);
+            let within = (primitive - object.first) as usize;
+            let weights = barycentric(corners.map(|c| c.as_dvec3()), position);
+            shading_normal(object.normals.as_ref(), within, weights, geometric)
+        }
+        Primitive::Curved(shape) => match shape.gradient(position).try_normalize() {
+            Some(normal) if normal.dot(view) < 0.0 => -normal,
+            Some(normal) => normal,
+            None => view,
+        },
+    }
+}
+
+/// Weights of the corners at a point of the triangle; they add up to 1.
+fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
+    let normal = (b - a).cross(c - a);
+    let area = normal.length_squared();
+    if area == 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    let wb = (p - a).cross(c - a).dot(normal) / area;
+    let wc = (b - a).cross(p - a).dot(normal) / area;
+    [1.0 - wb - wc, wb, wc]
+}
 
 /// The unit normal of a triangle on the side that the viewer is on.
 ///
@@ -50,6 +81,14 @@ mod tests {
 
     fn smooth(normals: [Vec3; 3]) -> SmoothNormals {
         SmoothNormals { normals: normals.to_vec(), corners: vec![[0, 1, 2]] }
+    }
+
+    #[test]
+    fn corners_have_their_own_weight() {
+        let corners = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 3.0, 1.0)];
+        assert_eq!(barycentric(corners, corners[0]), [1.0, 0.0, 0.0]);
+        assert_eq!(barycentric(corners, corners[1]), [0.0, 1.0, 0.0]);
+        assert_eq!(barycentric(corners, corners[2]), [0.0, 0.0, 1.0]);
     }
 
     #[test]

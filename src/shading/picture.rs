@@ -1,6 +1,6 @@
 //! A whole picture: every visible point shaded by the lights that it sees.
 
-use super::{Ambient, LightSample, geometric_normal, sample_light, shade, shading_normal};
+use super::{Ambient, LightSample, normal_at, sample_light, shade};
 use crate::scene::{Camera, Light, Scene};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
 use glam::DVec3;
@@ -54,38 +54,8 @@ fn shade_point(
     let Some(primitive) = point.primitive() else {
         return ShadedPoint { radiance: [0.0; 3], normal: view, albedo: [0.0; 3], depth };
     };
-    let corners = scene.corners(primitive);
-    let object = &scene.objects[scene.triangles[primitive as usize].object as usize];
-    let geometric = geometric_normal(corners, view);
-    let within = (primitive - object.first) as usize;
-    let weights = barycentric(corners.map(|c| c.as_dvec3()), point.position);
-    let normal = shading_normal(object.normals.as_ref(), within, weights, geometric);
+    let normal = normal_at(scene, primitive, point.position, view);
     let material = scene.material(primitive);
     let radiance = shade(material, normal, view, ambient, samples);
     ShadedPoint { radiance, normal, albedo: material.diffuse, depth }
-}
-
-/// Weights of the corners at a point of the triangle; they add up to 1.
-fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
-    let normal = (b - a).cross(c - a);
-    let area = normal.length_squared();
-    if area == 0.0 {
-        return [1.0, 0.0, 0.0];
-    }
-    let wb = (p - a).cross(c - a).dot(normal) / area;
-    let wc = (b - a).cross(p - a).dot(normal) / area;
-    [1.0 - wb - wc, wb, wc]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn corners_have_their_own_weight() {
-        let corners = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 3.0, 1.0)];
-        assert_eq!(barycentric(corners, corners[0]), [1.0, 0.0, 0.0]);
-        assert_eq!(barycentric(corners, corners[1]), [0.0, 1.0, 0.0]);
-        assert_eq!(barycentric(corners, corners[2]), [0.0, 0.0, 1.0]);
-    }
 }

@@ -1,10 +1,11 @@
 //! Every triangle for every query: the classical tracer of the 2004 paper, with the native predicates.
 
-use super::{Basis, BuildInput, Casters, Counters, ShadowTester, TesterEntry, is_there};
+use super::precise::{self, crossings_of, is_there};
+use super::{Basis, BuildInput, Casters, Counters, Crossings, SceneIndex, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::LightPoint;
 use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
-use crate::geometry::occlusion::{PreciseQuery, Stage};
+use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 
@@ -19,6 +20,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
 /// All casters of a scene as one light sees them.
 pub struct BruteForce<'a> {
     scene: &'a Scene,
+    index: &'a SceneIndex,
     casters: Casters,
     instruction_set: InstructionSet,
 }
@@ -27,7 +29,7 @@ impl<'a> BruteForce<'a> {
     /// Prepares the planes of every caster; `instruction_set` must be available.
     pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> BruteForce<'a> {
         let casters = Casters::new(input.scene, input.index, input.light);
-        BruteForce { scene: input.scene, casters, instruction_set }
+        BruteForce { scene: input.scene, index: input.index, casters, instruction_set }
     }
 
     /// Those of the lanes that a triangle blocks where it is not a hole of its mask.
@@ -42,6 +44,27 @@ impl<'a> BruteForce<'a> {
         let lanes =
             points.iter().enumerate().filter(|&(i, point)| blocked >> i & 1 == 1 && is_blocked(point));
         lanes.fold(0, |lanes, (i, _)| lanes | 1 << i)
+    }
+
+    /// Those of the lanes that no curved surface blocks.
+    fn not_behind_curved(&self, points: &[SurfacePoint], mut live: u16, counters: &mut Counters) -> u16 {
+        if self.index.curved.is_empty() {
+            return live;
+        }
+        for (i, point) in points.iter().enumerate() {
+            if live >> i & 1 == 0 {
+                continue;
+            }
+            let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
+            let blocks = |&p: &PrimitiveIndex| {
+                counters.tests += 1;
+                precise::blocks(self.scene, p, point, &query, counters)
+            };
+            if self.index.curved.iter().any(blocks) {
+                live &= !(1 << i);
+            }
+        }
+        live
     }
 
     fn answer_batch(&self, points: &[SurfacePoint], answers: &mut [bool], counters: &mut Counters) {
@@ -63,9 +86,7 @@ impl<'a> BruteForce<'a> {
                 counters.undecided += 1;
                 let query =
                     PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
-                let (blocks, stage) = query.blocks(self.scene.corners(primitive));
-                counters.exact += u64::from(stage == Stage::Exact);
-                blocked |= u16::from(blocks && is_there(self.scene, primitive, &query)) << i;
+                blocked |= u16::from(precise::blocks(self.scene, primitive, point, &query, counters)) << i;
             }
             live &= !blocked;
             if live == 0 {
@@ -73,6 +94,7 @@ impl<'a> BruteForce<'a> {
             }
         }
         counters.tests += (self.casters.planes.len() - start) as u64 * u64::from(live.count_ones());
+        live = self.not_behind_curved(points, live, counters);
         for (i, answer) in answers.iter_mut().enumerate() {
             *answer = live >> i & 1 == 0;
         }
@@ -84,6 +106,20 @@ impl ShadowTester for BruteForce<'_> {
         let mut counters = Counters::default();
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
             self.answer_batch(points, answers, &mut counters);
+        }
+        Ok(counters)
+    }
+
+    fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        let mut counters = Counters::default();
+        for point in points {
+            let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
+            let mut crossed = Vec::new();
+            for &primitive in &self.index.transparent {
+                let times = crossings_of(self.scene, primitive, point, &query, &mut counters);
+                crossed.extend((0..times).map(|_| primitive));
+            }
+            crossings.push(crossed);
         }
         Ok(counters)
     }

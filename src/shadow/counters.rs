@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 /// Counts of work; they explain a time and never influence an answer.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Triangles tested against a segment.
+    /// Primitives tested against a segment.
     pub tests: u64,
     /// Cells looked up.
     pub cells: u64,

@@ -1,35 +1,78 @@
 //! Dark by facing: what turns its back to the light is no shadow query (row 12 of the notes on the 1986
-//! paper, TRUTH "Facing").
+//! paper, TRUTH "Facing"), unless light passes through it.
 
+use crate::geometry::curved::{Crossing, Shape};
+use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::planes::orientation;
-use crate::geometry::{LightPosition, Sign};
-use crate::scene::Scene;
+use crate::geometry::{LightPosition, LightSpace, Sign};
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::{PointSource, SurfacePoint};
+use glam::Vec3;
 use rayon::prelude::*;
 
-/// The exact side of every triangle's plane that some point lies on.
-pub struct Sides(Vec<Sign>);
-
-impl Sides {
-    /// Sides of all planes for one point, or for a light infinitely far away.
-    pub fn of(scene: &Scene, point: impl Into<LightPosition>) -> Sides {
-        let point = point.into();
-        let triangles = 0..scene.triangles.len() as u32;
-        Sides(triangles.into_par_iter().map(|t| orientation(point, scene.corners(t))).collect())
-    }
+/// A light and the exact side of every triangle's plane that it is on.
+pub struct Sides {
+    triangles: Vec<Sign>,
+    space: LightSpace,
 }
 
-/// Whether a surface point faces the light: the start of its ray and the light lie strictly on the same
-/// side of its plane. Bare points have no face and always count as facing.
-///
-/// `light` are the sides of the light, `eye` those of the start of the point's ray.
-pub fn faces(point: &SurfacePoint, light: &Sides, eye: &Sides) -> bool {
-    match point.source {
-        PointSource::Ray { primitive, .. } => {
-            light.0[primitive as usize] * eye.0[primitive as usize] == Sign::Positive
+/// The sides of its surface that the viewer and the light are on, as seen from a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Facing {
+    /// Strictly on the same side, or the point has no surface.
+    Towards,
+    /// Strictly on different ones.
+    Away,
+    /// One of them is in the surface's plane, or tangent plane.
+    EdgeOn,
+}
+
+impl Sides {
+    /// Sides of all planes for one light.
+    pub fn of(scene: &Scene, light: impl Into<LightPosition>) -> Sides {
+        let light = light.into();
+        let triangles = 0..scene.triangles.len() as u32;
+        let triangles = triangles.into_par_iter().map(|t| orientation(light, scene.corners(t))).collect();
+        let bounds = scene.bounds().unwrap_or_default();
+        Sides { triangles, space: LightSpace::new(light, bounds) }
+    }
+
+    /// How the surface of a point faces the light.
+    pub fn facing(&self, scene: &Scene, point: &SurfacePoint) -> Facing {
+        let sides = match point.source {
+            // The ray comes from where it does not go, so its direction tells the side of its start.
+            PointSource::Ray { direction, primitive, .. } => {
+                let eye = orientation(LightPosition::Towards(-direction), scene.corners(primitive));
+                self.triangles[primitive as usize] * eye
+            }
+            PointSource::OnCurved { origin, direction, primitive, crossing } => {
+                self.on_curved(scene, point, (origin, direction), primitive, crossing)
+            }
+            PointSource::Bare => Sign::Positive,
+        };
+        match sides {
+            Sign::Positive => Facing::Towards,
+            Sign::Negative => Facing::Away,
+            Sign::Zero => Facing::EdgeOn,
         }
-        PointSource::OnCurved { .. } => todo!("points on curved surfaces"),
-        PointSource::Bare => true,
+    }
+
+    fn on_curved(
+        &self,
+        scene: &Scene,
+        point: &SurfacePoint,
+        (origin, direction): (Vec3, Vec3),
+        primitive: PrimitiveIndex,
+        crossing: Crossing,
+    ) -> Sign {
+        let shape: &Shape = scene.shape(primitive).expect("the source of a point on a curved surface");
+        if shape.is_touched(origin, direction) {
+            return Sign::Zero;
+        }
+        let query = PreciseQuery::new(&self.space, point.position, || point.exact(scene));
+        // A ray that enters comes from where the polynomial is above zero.
+        let eye = if crossing == Crossing::Entering { Sign::Positive } else { Sign::Negative };
+        eye * query.side_of_light(shape)
     }
 }
 
@@ -37,11 +80,10 @@ pub fn faces(point: &SurfacePoint, light: &Sides, eye: &Sides) -> bool {
 mod tests {
     use super::*;
     use crate::scene::{ObjectInput, SceneBuilder};
-    use glam::Vec3;
 
-    /// Whether a point of the triangle in the plane y = 0 faces a light, seen by an eye straight above or
-    /// below it, whichever way its corners are written.
-    fn faces_light(eye_height: f32, light: Vec3) -> bool {
+    /// How a point of the triangle in the plane y = 0 faces a light, seen by an eye straight above or below
+    /// it, whichever way its corners are written.
+    fn facing(eye_height: f32, light: Vec3) -> Facing {
         let eye = Vec3::new(0.2, eye_height, 0.2);
         let [one, other] = [[0, 1, 2], [0, 2, 1]].map(|corners| {
             let mut builder = SceneBuilder::new("test");
@@ -50,7 +92,7 @@ mod tests {
             builder.add_object(ObjectInput::new(name, positions, triangles)).unwrap();
             let scene = builder.finish();
             let point = SurfacePoint::on_ray(&scene, eye, Vec3::NEG_Y * eye_height.signum(), 0);
-            faces(&point, &Sides::of(&scene, light), &Sides::of(&scene, eye))
+            Sides::of(&scene, light).facing(&scene, &point)
         });
         assert_eq!(one, other);
         one
@@ -60,22 +102,45 @@ mod tests {
     fn only_a_light_strictly_on_the_side_of_the_eye_is_faced() {
         let smallest = f32::from_bits(1);
         for (eye, height, expected) in [
-            (1.0, 3.0, true),
-            (-1.0, -3.0, true),
-            (1.0, -3.0, false),
-            (-1.0, 3.0, false),
-            (1.0, smallest, true),
-            (1.0, -smallest, false),
-            (1.0, 0.0, false),
-            (-1.0, -0.0, false),
+            (1.0, 3.0, Facing::Towards),
+            (-1.0, -3.0, Facing::Towards),
+            (1.0, -3.0, Facing::Away),
+            (-1.0, 3.0, Facing::Away),
+            (1.0, smallest, Facing::Towards),
+            (1.0, -smallest, Facing::Away),
+            (1.0, 0.0, Facing::EdgeOn),
+            (-1.0, -0.0, Facing::EdgeOn),
         ] {
-            assert_eq!(faces_light(eye, Vec3::new(5.0, height, -7.0)), expected, "eye {eye}, light {height}");
+            assert_eq!(facing(eye, Vec3::new(5.0, height, -7.0)), expected, "eye {eye}, light {height}");
         }
     }
 
     #[test]
+    fn a_sphere_faces_a_light_beyond_its_tangent_plane() {
+        let mut builder = SceneBuilder::new("test");
+        let curved = vec![Shape::sphere(Vec3::ZERO, 1.0)];
+        builder.add_object(ObjectInput { curved, ..ObjectInput::new("ball", vec![], vec![]) }).unwrap();
+        let scene = builder.finish();
+        let facing = |origin: Vec3, light: Vec3| {
+            let point = SurfacePoint::on_ray(&scene, origin, Vec3::NEG_Y, 0);
+            Sides::of(&scene, light).facing(&scene, &point)
+        };
+        let above = 1.0f32.next_up();
+        // From above at the north pole, then from inside at the south pole.
+        let (north, south) = (Vec3::Y * 3.0, Vec3::ZERO);
+        assert_eq!(facing(north, Vec3::new(9.0, above, 0.0)), Facing::Towards);
+        assert_eq!(facing(north, Vec3::new(9.0, 1.0, 0.0)), Facing::EdgeOn);
+        assert_eq!(facing(north, Vec3::new(9.0, 1.0f32.next_down(), 0.0)), Facing::Away);
+        assert_eq!(facing(south, Vec3::new(9.0, 1.0, 0.0)), Facing::Towards);
+        assert_eq!(facing(south, Vec3::new(9.0, -above, 0.0)), Facing::Away);
+        // A ray that only touches the sphere.
+        assert_eq!(facing(Vec3::new(1.0, 3.0, 0.0), Vec3::new(9.0, 0.0, 0.0)), Facing::EdgeOn);
+    }
+
+    #[test]
     fn a_point_on_no_surface_faces_every_light() {
-        let nothing = Sides(Vec::new());
-        assert!(faces(&SurfacePoint::bare(Vec3::ONE).unwrap(), &nothing, &nothing));
+        let scene = Scene::empty("nothing");
+        let point = SurfacePoint::bare(Vec3::ONE).unwrap();
+        assert_eq!(Sides::of(&scene, Vec3::ZERO).facing(&scene, &point), Facing::Towards);
     }
 }

@@ -12,6 +12,7 @@ pub mod embree;
 pub mod exact;
 pub mod facing;
 pub mod light_buffer;
+mod precise;
 mod registry;
 mod scene_index;
 mod solids;
@@ -19,15 +20,13 @@ mod traced_ray;
 
 pub use counters::Counters;
 pub use crossings::Crossings;
+pub use precise::{blocks, crossings_of, is_there};
 pub use registry::{Basis, Build, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find, testers};
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;
 
 use crate::error::{Error, Result};
-use crate::geometry::ExactPosition;
-use crate::geometry::occlusion::PreciseQuery;
-use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
 
 /// Answers shadow queries of one light.
@@ -62,18 +61,6 @@ pub trait ShadowTester: Send + Sync {
     fn statistics(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
-}
-
-/// Whether a triangle that blocks a segment is there where that passes through it, and not a hole of its
-/// mask.
-fn is_there<F: Fn() -> ExactPosition>(
-    scene: &Scene,
-    primitive: PrimitiveIndex,
-    query: &PreciseQuery<F>,
-) -> bool {
-    scene
-        .masked(primitive)
-        .is_none_or(|masked| masked.is_there(query.texels(scene.corners(primitive), &masked.axes())))
 }
 
 /// Where queries may come from; testers that know leave out what nobody can ask for.

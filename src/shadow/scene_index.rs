@@ -3,21 +3,24 @@
 use super::Solids;
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
-use crate::scene::{PrimitiveIndex, Scene};
+use crate::scene::{Primitive, PrimitiveIndex, Scene};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::OnceLock;
 
-/// Which triangles are cast, and which objects are convex.
+/// What is cast, and which objects are convex.
 pub struct SceneIndex {
-    /// Triangles that block light: of objects that cast, exact duplicates once unless they have
-    /// holes (TRUTH, "Surface points and
-    /// rays").
+    /// Triangles that block light: of objects that cast, exact duplicates once unless they have holes (TRUTH,
+    /// "Surface points and rays").
     pub casting: Vec<PrimitiveIndex>,
-    /// Lowest and highest corner of a box around them; both zero if there are none.
+    /// Curved surfaces that block light, exact duplicates once.
+    pub curved: Vec<PrimitiveIndex>,
+    /// Primitives of objects that cast which let light through and attenuate it.
+    pub transparent: Vec<PrimitiveIndex>,
+    /// Lowest and highest corner of a box around all that casts and has an end; both zero if nothing does.
     pub bounds: (Vec3, Vec3),
-    /// For each object its verified convexity.
+    /// For each object its verified convexity; that of objects with curved surfaces is not known.
     pub convexity: Vec<Option<Convexity>>,
     solids: OnceLock<Solids>,
 }
@@ -29,28 +32,55 @@ impl SceneIndex {
         let casting: Vec<_> = (0..scene.triangles.len() as u32)
             .filter(|&t| {
                 let mut is_new = || scene.masked(t).is_some() || seen.insert(key(scene, t));
-                scene.object(t).shadowing.casts && is_new()
+                scene.object(t).shadowing.casts && !scene.is_transparent(t) && is_new()
             })
             .collect();
-        let corners = || casting.iter().flat_map(|&t| scene.corners(t));
-        let first = corners().next().unwrap_or_default();
-        let bounds = corners().fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+        let casts = |&p: &PrimitiveIndex| scene.object(p).shadowing.casts;
+        let mut seen = HashSet::new();
+        let curved: Vec<_> = (scene.triangles.len() as u32..scene.primitive_count())
+            .filter(casts)
+            .filter(|&p| !scene.is_transparent(p) && seen.insert(numbers(scene, p)))
+            .collect();
+        let transparent: Vec<_> = match scene.has_transparent_casters() {
+            true => (0..scene.primitive_count()).filter(casts).filter(|&p| scene.is_transparent(p)).collect(),
+            false => Vec::new(),
+        };
+        let bounds = bounds_of(scene, casting.iter().chain(&curved).chain(&transparent));
         let convexity = scene
             .objects
             .par_iter()
             .map(|object| {
+                if object.curved_count > 0 {
+                    return None;
+                }
                 let triangles: Vec<_> =
                     (object.first..object.first + object.count).map(|t| scene.corners(t)).collect();
                 convexity::verify(&triangles)
             })
             .collect();
-        SceneIndex { casting, bounds, convexity, solids: OnceLock::new() }
+        SceneIndex { casting, curved, transparent, bounds, convexity, solids: OnceLock::new() }
     }
 
     /// The closed solids of the scene that this index was made of, found when they are first asked for.
     pub fn solids(&self, scene: &Scene) -> &Solids {
         self.solids.get_or_init(|| Solids::new(scene))
     }
+}
+
+/// A box around primitives that have an end.
+fn bounds_of<'p>(scene: &Scene, primitives: impl Iterator<Item = &'p PrimitiveIndex>) -> (Vec3, Vec3) {
+    let ends = |&p: &PrimitiveIndex| match scene.primitive(p) {
+        Primitive::Triangle([a, b, c]) => Some((a.min(b).min(c), a.max(b).max(c))),
+        Primitive::Curved(shape) => shape.bounds(),
+    };
+    let join = |(low, high): (Vec3, Vec3), (l, h): (Vec3, Vec3)| (low.min(l), high.max(h));
+    primitives.filter_map(ends).reduce(join).unwrap_or_default()
+}
+
+/// The same for equal curved surfaces.
+fn numbers(scene: &Scene, curved: PrimitiveIndex) -> Vec<u32> {
+    let shape = scene.shape(curved).expect("a curved surface");
+    shape.numbers().into_iter().map(|x| (x + 0.0).to_bits()).collect()
 }
 
 /// The same for triangles with the same three corners in any order.

@@ -1,7 +1,8 @@
 //! The nearest of several hits, by a rule that knows no order of objects.
 
-use crate::geometry::ray_triangle::{RayParameter, RayTriangle};
-use crate::scene::{ImageSize, PrimitiveIndex, Scene};
+use crate::geometry::curved::{Crossing, ExactParameter, RayStart};
+use crate::geometry::ray_triangle::{self, RayParameter, RayTriangle};
+use crate::scene::{ImageSize, Primitive, PrimitiveIndex, Scene};
 use glam::Vec3;
 use std::cmp::Ordering;
 
@@ -17,7 +18,43 @@ pub struct FirstHits {
 }
 
 /// One buffer item of the 2004 paper: the object and its t.
-pub(super) type Hit = (PrimitiveIndex, RayParameter);
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    pub primitive: PrimitiveIndex,
+    pub parameter: RayParameter,
+    /// Of a curved surface, which of its points.
+    pub crossing: Option<Crossing>,
+}
+
+impl Hit {
+    /// Of a triangle.
+    pub fn flat(primitive: PrimitiveIndex, parameter: RayParameter) -> Hit {
+        Hit { primitive, parameter, crossing: None }
+    }
+
+    /// Where a ray hits a primitive, if it is a curved one.
+    pub fn curved(
+        scene: &Scene,
+        primitive: PrimitiveIndex,
+        origin: Vec3,
+        direction: Vec3,
+        start: &RayStart,
+    ) -> Option<Hit> {
+        let hit = scene.shape(primitive)?.first_hit(origin, direction, start)?;
+        Some(Hit { primitive, parameter: hit.parameter, crossing: Some(hit.crossing) })
+    }
+
+    /// The place on its ray, exactly.
+    fn exact_parameter(&self, scene: &Scene, origin: Vec3, direction: Vec3) -> ExactParameter {
+        match scene.primitive(self.primitive) {
+            Primitive::Triangle(corners) => ray_triangle::exact_parameter(origin, direction, corners),
+            Primitive::Curved(shape) => {
+                let crossing = self.crossing.expect("a hit of a curved surface has one");
+                shape.exact_parameter(origin, direction, crossing)
+            }
+        }
+    }
+}
 
 /// Whether a triangle is there where a ray hits it, and not a hole of its mask.
 pub(super) fn is_there(
@@ -40,13 +77,11 @@ pub(super) fn keep_nearer(stored: &mut Option<Hit>, new: Hit, scene: &Scene, ori
     let nearer = match stored {
         None => true,
         Some(old) => {
-            let order = new.1.certain_order(old.1).unwrap_or_else(|| {
-                let prepare = |primitive| {
-                    RayTriangle::new(origin, scene.corners(primitive)).expect("a triangle that was hit")
-                };
-                RayTriangle::exact_order(direction, &prepare(new.0), &prepare(old.0))
+            let order = new.parameter.certain_order(old.parameter).unwrap_or_else(|| {
+                let exact = |hit: &Hit| hit.exact_parameter(scene, origin, direction);
+                exact(&new).order(&exact(old))
             });
-            order.then_with(|| tie_order(scene, new.0, old.0)) == Ordering::Less
+            order.then_with(|| tie_order(scene, new.primitive, old.primitive)) == Ordering::Less
         }
     };
     if nearer {
@@ -55,17 +90,27 @@ pub(super) fn keep_nearer(stored: &mut Option<Hit>, new: Hit, scene: &Scene, ori
 }
 
 fn tie_order(scene: &Scene, a: PrimitiveIndex, b: PrimitiveIndex) -> Ordering {
-    let sorted = |primitive| {
-        let mut corners = scene.corners(primitive).map(|p| p.to_array());
-        corners.sort_by(|p, q| p.partial_cmp(q).expect("finite"));
-        corners
+    // Triangles come first, as in the numbers of primitives.
+    let numbers = |primitive| match scene.primitive(primitive) {
+        Primitive::Triangle(corners) => {
+            let mut corners = corners.map(|p| p.to_array());
+            corners.sort_by(|p, q| p.partial_cmp(q).expect("finite"));
+            (false, corners.concat())
+        }
+        Primitive::Curved(shape) => (true, shape.numbers()),
     };
     let material = |primitive| {
         let m = scene.material(primitive);
-        (m.diffuse, m.specular, m.shininess)
+        (
+            m.diffuse,
+            m.specular,
+            m.shininess,
+            m.mirror,
+            m.transmission.map(|t| (t.transmittance, t.refractive_index)),
+        )
     };
-    sorted(a)
-        .partial_cmp(&sorted(b))
+    numbers(a)
+        .partial_cmp(&numbers(b))
         .expect("finite")
         .then_with(|| material(a).partial_cmp(&material(b)).unwrap_or(Ordering::Equal))
 }

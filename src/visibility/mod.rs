@@ -1,6 +1,7 @@
 //! What a camera sees: for every pixel the first primitive on its ray, and the exact point on it.
 
 pub mod classical;
+mod curved_cast;
 mod hit;
 mod surface_point;
 pub mod t_buffer;

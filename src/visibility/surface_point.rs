@@ -2,7 +2,7 @@
 
 use super::FirstHits;
 use crate::geometry::ExactPosition;
-use crate::geometry::curved::Crossing;
+use crate::geometry::curved::{Crossing, RayStart};
 use crate::scene::{Camera, PrimitiveIndex, Scene};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -44,10 +44,34 @@ pub enum PointSource {
 }
 
 impl SurfacePoint {
-    /// The point where a ray meets a triangle of the scene that is not parallel to it.
+    /// The point where a ray hits a primitive of the scene: one that it does.
+    ///
+    /// # Panics
+    /// If it is a curved surface that the ray misses.
     pub fn on_ray(scene: &Scene, origin: Vec3, direction: Vec3, primitive: PrimitiveIndex) -> SurfacePoint {
+        if let Some(shape) = scene.shape(primitive) {
+            let hit = shape.first_hit(origin, direction, &RayStart::origin()).expect("a surface that is hit");
+            return SurfacePoint::on_curved(scene, origin, direction, primitive, hit.crossing);
+        }
         let exact = ExactPosition::OnRay { origin, direction, triangle: scene.corners(primitive) };
         SurfacePoint { position: exact.rounded(), source: PointSource::Ray { origin, direction, primitive } }
+    }
+
+    /// The point where a ray's line passes through a curved surface of the scene.
+    ///
+    /// # Panics
+    /// If it does not, or the primitive is a triangle.
+    pub fn on_curved(
+        scene: &Scene,
+        origin: Vec3,
+        direction: Vec3,
+        primitive: PrimitiveIndex,
+        crossing: Crossing,
+    ) -> SurfacePoint {
+        let shape = *scene.shape(primitive).expect("a curved surface");
+        let exact = ExactPosition::OnCurved { origin, direction, shape, crossing };
+        let source = PointSource::OnCurved { origin, direction, primitive, crossing };
+        SurfacePoint { position: exact.rounded(), source }
     }
 
     /// A point on no surface; `None` unless its coordinates are finite.

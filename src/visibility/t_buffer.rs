@@ -6,6 +6,7 @@
 //! rays within that rounding of an edge.
 
 use super::classical;
+use super::curved_cast::CurvedCast;
 use super::hit::{FirstHits, Hit, is_there, keep_nearer};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::ray_triangle::RayTriangle;
@@ -63,7 +64,22 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
                 .sum::<u64>();
         }
     }
-    FirstHits { size, primitives: items.into_iter().map(|item| item.map(|(p, _)| p)).collect(), tests }
+    for chunk in CurvedCast::chunks(scene, camera, &grid, &frame) {
+        tests += items
+            .par_chunks_mut(BAND_ROWS * size.width as usize)
+            .enumerate()
+            .map(|(band, items)| {
+                let first_row = (band * BAND_ROWS) as u32;
+                let casts = chunk.iter();
+                casts.map(|cast| cast.fill(scene, camera, &raster, &grid, first_row, items)).sum::<u64>()
+            })
+            .sum::<u64>();
+    }
+    FirstHits {
+        size,
+        primitives: items.into_iter().map(|item| item.map(|hit| hit.primitive)).collect(),
+        tests,
+    }
 }
 
 /// Casts one triangle into a band of rows; returns the number of rays tested.
@@ -90,7 +106,7 @@ fn fill(
                 && is_there(scene, cast.primitive, &cast.triangle, direction)
             {
                 let item = &mut line[column as usize];
-                keep_nearer(item, (cast.primitive, t), scene, camera.origin, direction);
+                keep_nearer(item, Hit::flat(cast.primitive, t), scene, camera.origin, direction);
             }
         }
     }
@@ -118,14 +134,24 @@ fn chunks(object: &Object) -> impl Iterator<Item = std::ops::Range<PrimitiveInde
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::curved::Shape;
+    use crate::geometry::curved::tests as shapes;
     use crate::scene::{ObjectInput, SceneBuilder};
     use glam::Vec3;
     use proptest::prelude::*;
 
     fn scene(triangles: &[[Vec3; 3]]) -> Scene {
+        scene_with(triangles, &[])
+    }
+
+    fn scene_with(triangles: &[[Vec3; 3]], shapes: &[Shape]) -> Scene {
         let mut builder = SceneBuilder::new("test");
         for triangle in triangles {
             let input = ObjectInput::new("t", triangle.to_vec(), vec![[0, 1, 2]]);
+            builder.add_object(input).unwrap();
+        }
+        for &shape in shapes {
+            let input = ObjectInput { curved: vec![shape], ..ObjectInput::new("s", vec![], vec![]) };
             builder.add_object(input).unwrap();
         }
         builder.finish()
@@ -139,6 +165,26 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn curved_surfaces_are_seen_as_by_classical_ray_tracing(
+            triangles in prop::collection::vec(triangle(), 0..3),
+            mut shapes in prop::collection::vec(shapes::shape(), 1..6),
+            eye in prop::array::uniform3(-3.0f32..3.0),
+        ) {
+            let camera = Camera::look_at("c", Vec3::from(eye), Vec3::ZERO, Vec3::Y, 70.0);
+            let size = ImageSize { width: 37, height: 23 };
+            let forward = scene_with(&triangles, &shapes);
+            let filled = first_hits(&forward, &camera, size);
+            let traced = classical::first_hits(&forward, &camera, size);
+            prop_assert_eq!(&filled.primitives, &traced.primitives);
+            shapes.reverse();
+            let backward = scene_with(&triangles, &shapes);
+            let reversed = first_hits(&backward, &camera, size);
+            for (one, other) in filled.primitives.iter().zip(&reversed.primitives) {
+                prop_assert_eq!(one.map(|p| forward.primitive(p)), other.map(|p| backward.primitive(p)));
+            }
+        }
+
         #[test]
         fn equals_classical_ray_tracing_in_any_object_order(
             triangles in prop::collection::vec(triangle(), 1..12),

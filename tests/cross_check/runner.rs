@@ -6,7 +6,6 @@ use lightbuffer::measure::answer;
 use lightbuffer::scene::Light;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
-use lightbuffer::shadow::facing::Sides;
 use lightbuffer::shadow::light_buffer::LightBuffer;
 use lightbuffer::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
 use lightbuffer::verdict::Queries;
@@ -37,8 +36,7 @@ impl<'a> Asked<'a> {
     pub fn of(case: &'a Case) -> Asked<'a> {
         let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
         let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
-        let eye = Sides::of(&case.scene, case.camera.origin);
-        let queries = |light: &Light| (light.position(), Queries::new(&case.scene, &visible, light, &eye));
+        let queries = |light: &Light| (light.position(), Queries::new(&case.scene, &visible, light));
         Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
     }
 

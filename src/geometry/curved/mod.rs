@@ -1,9 +1,25 @@
-//! Curved surfaces: what they are, and exact signs of points and segments against them.
+//! Curved surfaces: what they are, and exact signs of rays and segments against them.
+//!
+//! Along a line each surface is a polynomial of degree 2 at most, with bounds ([`on_line`]). Rays ask for its
+//! first root ([`first_hit`]), shadow segments for how often it passes through zero ([`meeting`]).
 
 mod crossing;
 mod defect;
+mod first_hit;
+mod gradient;
+pub(crate) mod hull;
+mod meeting;
+mod on_line;
+pub(crate) mod root;
+pub(crate) mod segment;
 mod shape;
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub use crossing::Crossing;
 pub use defect::Defect;
+pub use first_hit::{CurvedHit, RayStart};
+pub use meeting::Meetings;
+pub use root::ExactParameter;
+pub use segment::Base;
 pub use shape::{Cone, Disc, Ellipsoid, InfinitePlane, Quadric, Shape, Sphere};

@@ -6,7 +6,7 @@
 
 use super::cube::{self, Face};
 use super::sheet::Sheet;
-use crate::geometry::expansion::Expansion;
+use crate::geometry::exact_number::ExactNumber;
 use crate::geometry::footprint::{Frame, Grid};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::{ExactPosition, LightPosition, LightSpace, Sign};
@@ -104,11 +104,11 @@ pub(super) fn certain_index(value: f64, tolerance: f64, resolution: u32) -> Opti
 }
 
 /// The largest k < R with R x >= (2k - R) z, for |x| <= z, by bisection with exact signs.
-pub(super) fn exact_index(x: &Expansion, z: &Expansion, resolution: u32) -> u32 {
-    let scaled = x * &Expansion::from(resolution as f32);
+pub(super) fn exact_index(x: &ExactNumber, z: &ExactNumber, resolution: u32) -> u32 {
+    let scaled = x * &ExactNumber::from(resolution as f32);
     let at_or_above = |k: u32| {
         let border = (2 * i64::from(k) - i64::from(resolution)) as f32;
-        (&scaled - &(z * &Expansion::from(border))).sign() != Sign::Negative
+        (&scaled - &(z * &ExactNumber::from(border))).sign() != Sign::Negative
     };
     let (mut low, mut high) = (0, resolution);
     while high - low > 1 {
@@ -120,9 +120,4 @@ pub(super) fn exact_index(x: &Expansion, z: &Expansion, resolution: u32) -> u32 
         }
     }
     low
-}
-
-/// The absolute value.
-pub(super) fn magnitude(value: &Expansion) -> Expansion {
-    if value.sign() == Sign::Negative { -value } else { value.clone() }
 }

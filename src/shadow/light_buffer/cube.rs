@@ -3,8 +3,8 @@
 //! Face m, sign s looks along the axis m towards s; the other two axes follow cyclically. Cell (i, j) of
 //! R x R is the closed set of directions with (2i - R) / R <= x' / z' <= (2i + 2 - R) / R, and so for y'.
 
-use super::cells::{Located, certain_index, coordinate_error, exact_index, magnitude};
-use crate::geometry::expansion::Expansion;
+use super::cells::{Located, certain_index, coordinate_error, exact_index};
+use crate::geometry::exact_number::ExactNumber;
 use crate::geometry::footprint::Frame;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::position::HomogeneousPoint;
@@ -54,7 +54,7 @@ impl Face {
         [v[(self.axis + 1) % 3], v[(self.axis + 2) % 3], v[self.axis] * self.sign()]
     }
 
-    fn exact_coordinates(self, p: &HomogeneousPoint) -> [Expansion; 3] {
+    fn exact_coordinates(self, p: &HomogeneousPoint) -> [ExactNumber; 3] {
         let z = &p.xyz[self.axis];
         let z = if self.direction == Direction::Along { z.clone() } else { -z };
         [p.xyz[(self.axis + 1) % 3].clone(), p.xyz[(self.axis + 2) % 3].clone(), z]
@@ -104,7 +104,7 @@ pub fn locate<F: Fn() -> ExactPosition>(
 /// The cell by exact signs of degree 4: R x' against (2k - R) z'.
 fn locate_exactly(p: &HomogeneousPoint, position: DVec3, light: Vec3, resolution: u32) -> Option<Located> {
     let larger = |a: usize, b: usize| {
-        if (&magnitude(&p.xyz[a]) - &magnitude(&p.xyz[b])).sign() == Sign::Negative { b } else { a }
+        if (&p.xyz[a].magnitude() - &p.xyz[b].magnitude()).sign() == Sign::Negative { b } else { a }
     };
     let axis = larger(larger(0, 1), 2);
     let direction = match p.xyz[axis].sign() {

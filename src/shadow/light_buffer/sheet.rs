@@ -7,8 +7,8 @@
 //! The sheet [-E, E] x [-E, E], with an E for each axis, holds everything that is cast; cell (i, j) of R x R
 //! is the closed set with (2i - R) / R <= x' / E <= (2i + 2 - R) / R, and so for y'.
 
-use super::cells::{Located, certain_index, coordinate_error, exact_index, magnitude};
-use crate::geometry::expansion::Expansion;
+use super::cells::{Located, certain_index, coordinate_error, exact_index};
+use crate::geometry::exact_number::ExactNumber;
 use crate::geometry::footprint::Frame;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::position::HomogeneousPoint;
@@ -120,16 +120,16 @@ impl Sheet {
 
     /// The cell by exact signs of degree 5.
     fn exact_cell(&self, p: &HomogeneousPoint, resolution: u32) -> Option<[u32; 2]> {
-        let along = Expansion::from(self.direction[self.axes[2]]);
-        let steepness = magnitude(&along);
+        let along = ExactNumber::from(self.direction[self.axes[2]]);
+        let steepness = along.magnitude();
         let index = |i: usize| {
-            let slope = Expansion::from(self.direction[self.axes[i]]);
+            let slope = ExactNumber::from(self.direction[self.axes[i]]);
             // L_k x' and |L_k| E, in units of the denominator w.
             let turned = &(&along * &p.xyz[self.axes[i]]) - &(&slope * &p.xyz[self.axes[2]]);
             let x = if along.sign() == Sign::Negative { -&turned } else { turned };
-            let extent = &Expansion::from(8.0f32) * &Expansion::from(self.eighth[i]);
+            let extent = &ExactNumber::from(8.0f32) * &ExactNumber::from(self.eighth[i]);
             let reach = &(&extent * &steepness) * &p.w;
-            let is_inside = (&reach - &magnitude(&x)).sign() != Sign::Negative;
+            let is_inside = (&reach - &x.magnitude()).sign() != Sign::Negative;
             is_inside.then(|| exact_index(&x, &reach, resolution))
         };
         Some([index(0)?, index(1)?])

@@ -1,0 +1,89 @@
+//! Double-double numbers that carry a bound of their error, for rounding correctly to f64.
+
+use super::double_double::DoubleDouble;
+use super::number::Number;
+use super::{ROUNDOFF, Sign};
+
+/// A number within `error` of `value`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BoundedDouble {
+    value: DoubleDouble,
+    error: f64,
+}
+
+/// What one operation loses, relative to the magnitudes of its terms.
+const LOSS: f64 = DoubleDouble::ROUNDOFF;
+
+/// The bound itself is computed in floats.
+const INFLATION: f64 = 1.0 + 16.0 * ROUNDOFF;
+
+impl BoundedDouble {
+    fn size(&self) -> f64 {
+        self.value.high.abs() * (1.0 + 2.0 * ROUNDOFF)
+    }
+
+    /// The quotient; its error is infinite if the divisor may be zero.
+    pub fn divided_by(&self, divisor: &BoundedDouble) -> BoundedDouble {
+        let smallest = divisor.value.high.abs() * (1.0 - 4.0 * ROUNDOFF) - divisor.error;
+        if smallest.is_nan() || smallest <= 0.0 {
+            return BoundedDouble { value: DoubleDouble { high: 0.0, low: 0.0 }, error: f64::INFINITY };
+        }
+        let value = self.value.divide(divisor.value);
+        let size = value.high.abs() * (1.0 + 2.0 * ROUNDOFF);
+        let error = (self.error + size * divisor.error) / smallest + LOSS * size + f64::MIN_POSITIVE;
+        BoundedDouble { value, error: error * INFLATION }
+    }
+
+    /// The square root of a number that is not negative, whatever its bound says: of the high part, and one
+    /// step of Newton's method.
+    pub fn square_root(&self) -> BoundedDouble {
+        let root = self.value.high.max(0.0).sqrt();
+        if root == 0.0 {
+            let zero = DoubleDouble { high: 0.0, low: 0.0 };
+            return BoundedDouble { value: zero, error: self.error.max(0.0).sqrt() * INFLATION };
+        }
+        let first = DoubleDouble { high: root, low: 0.0 };
+        let rest = self.value.add(first.multiply(first).negate());
+        let value = first.add(DoubleDouble { high: rest.high / (2.0 * root), low: 0.0 });
+        let error = self.error / root + 2.0 * LOSS * root + f64::MIN_POSITIVE;
+        BoundedDouble { value, error: error * INFLATION }
+    }
+
+    /// The f64 that every number within the bound rounds to, if they all round to one.
+    pub fn rounded(&self) -> Option<f64> {
+        let high = self.value.high;
+        let margin = (self.value.low.abs() + self.error) * (1.0 + 4.0 * ROUNDOFF);
+        // Tiny results, where products may have underflowed, are left to the exact way.
+        let certain = high.abs() > 1e-200 && high + margin == high && high - margin == high;
+        certain.then_some(high)
+    }
+}
+
+impl Number for BoundedDouble {
+    fn exactly(value: f32) -> BoundedDouble {
+        BoundedDouble { value: DoubleDouble { high: f64::from(value), low: 0.0 }, error: 0.0 }
+    }
+
+    fn plus(&self, other: &BoundedDouble) -> BoundedDouble {
+        let value = self.value.add(other.value);
+        let error = self.error + other.error + LOSS * (self.size() + other.size());
+        BoundedDouble { value, error: error * INFLATION }
+    }
+
+    fn minus(&self, other: &BoundedDouble) -> BoundedDouble {
+        self.plus(&BoundedDouble { value: other.value.negate(), error: other.error })
+    }
+
+    fn times(&self, other: &BoundedDouble) -> BoundedDouble {
+        let value = self.value.multiply(other.value);
+        let error = self.size() * other.error
+            + other.size() * self.error
+            + self.error * other.error
+            + LOSS * (self.size() * other.size());
+        BoundedDouble { value, error: (error + 4.0 * f64::MIN_POSITIVE) * INFLATION }
+    }
+
+    fn sign(&self) -> Option<Sign> {
+        Sign::certain(self.value.high, self.error + self.value.low.abs())
+    }
+}

@@ -1,0 +1,209 @@
+//! Polyhedra that enclose curved surfaces, to be projected in their place (row 18 of the notes on the 1986
+//! paper).
+//!
+//! A hull is a closed convex mesh around everything between the points of the surface. It is wider than it
+//! would have to be by a millionth of its size and 2^-40 of its distance from the origin. That is far above
+//! the rounding of corners and projections, so that triangles of the hull which are seen too nearly edge-on to
+//! be projected can be left out: their neighbours reach over what they would cover.
+
+use super::shape::{Cone, Disc, Ellipsoid, Shape, Sphere};
+use glam::{DVec3, Vec3};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// Triangles of a hull, by their corners in world space.
+pub(crate) type Hull = Vec<[DVec3; 3]>;
+
+/// Corners of the polygon around a circle.
+const SIDES: usize = 10;
+
+/// How much wider hulls are than they would have to be, relative to their size.
+const MARGIN: f64 = 1e-6;
+
+/// A mesh that encloses a surface; `None` for a plane without end.
+pub(crate) fn outer(shape: &Shape) -> Option<Hull> {
+    match shape {
+        Shape::Sphere(Sphere { centre, radius }) => {
+            let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * f64::from(*radius));
+            Some(around_ball(shape, *centre, axes))
+        }
+        Shape::Ellipsoid(Ellipsoid { centre, axes }) => {
+            Some(around_ball(shape, *centre, axes.map(Vec3::as_dvec3)))
+        }
+        Shape::Cone(cone) => Some(around_cone(cone)),
+        Shape::Disc(disc) => Some(around_disc(disc)),
+        Shape::Plane(_) => None,
+        Shape::Quadric(quadric) => Some(box_between(quadric.low, quadric.high)),
+    }
+}
+
+/// What a hull near a point is widened by at least.
+fn allowance(p: Vec3) -> f64 {
+    p.as_dvec3().abs().max_element() * 2f64.powi(-40) + f64::MIN_POSITIVE
+}
+
+/// The corners of a regular icosahedron, and its faces by their corners.
+static ICOSAHEDRON: LazyLock<([DVec3; 12], Vec<[usize; 3]>)> = LazyLock::new(|| {
+    let golden = (1.0 + 5f64.sqrt()) / 2.0;
+    let corners: [DVec3; 12] = std::array::from_fn(|i| {
+        let (one, long) = (if i & 1 == 0 { 1.0 } else { -1.0 }, if i & 2 == 0 { golden } else { -golden });
+        let mut corner = [0.0, one, long];
+        corner.rotate_right(i / 4);
+        DVec3::from_array(corner)
+    });
+    // Edges have length 2, everything else is farther apart.
+    let near = |i: usize, j: usize| corners[i].distance_squared(corners[j]) < 5.0;
+    let faces = (0..12).flat_map(|i| (i + 1..12).flat_map(move |j| (j + 1..12).map(move |k| [i, j, k])));
+    let faces = faces.filter(|&[i, j, k]| near(i, j) && near(j, k) && near(k, i)).collect();
+    (corners, faces)
+});
+
+/// The image of an icosahedron around the unit sphere under an affine map.
+fn around_ball(shape: &Shape, centre: Vec3, axes: [DVec3; 3]) -> Hull {
+    let golden = (1.0 + 5f64.sqrt()) / 2.0;
+    // The faces of the icosahedron are golden^2 / sqrt 3 away from its middle.
+    let unit = 3f64.sqrt() / (golden * golden);
+    // What rounding moves a corner by counts most across a flat ellipsoid.
+    let longest = axes.iter().map(|axis| axis.length()).fold(0.0, f64::max);
+    let thinnest = axes[0].dot(axes[1].cross(axes[2])).abs() / (longest * longest);
+    let scale = unit * (1.0 + MARGIN + (allowance(centre) + longest * 2f64.powi(-40)) / thinnest);
+    if scale.is_nan() || scale >= 4.0 {
+        let (low, high) = shape.bounds().expect("a ball has an end");
+        return box_between(low, high);
+    }
+    let (corners, faces) = &*ICOSAHEDRON;
+    let place = |p: DVec3| centre.as_dvec3() + (axes[0] * p.x + axes[1] * p.y + axes[2] * p.z) * scale;
+    faces.iter().map(|face| face.map(|i| place(corners[i]))).collect()
+}
+
+/// A prism or a frustum of a pyramid around two circles.
+fn around_cone(cone: &Cone) -> Hull {
+    let (base, apex) = (cone.base.as_dvec3(), cone.apex.as_dvec3());
+    let axis = apex - base;
+    let size = axis.length() + f64::from(cone.base_radius.max(cone.apex_radius));
+    let wider = size * MARGIN + allowance(cone.base).max(allowance(cone.apex));
+    let along = axis.normalize();
+    around_circles(
+        [base - along * wider, apex + along * wider],
+        along,
+        [cone.base_radius, cone.apex_radius].map(|radius| f64::from(radius) + wider),
+    )
+}
+
+/// A flat prism.
+fn around_disc(disc: &Disc) -> Hull {
+    let along = disc.normal.as_dvec3().normalize();
+    let wider = f64::from(disc.radius) * MARGIN + allowance(disc.centre);
+    let centre = disc.centre.as_dvec3();
+    let radius = f64::from(disc.radius) + wider;
+    around_circles([centre - along * wider, centre + along * wider], along, [radius; 2])
+}
+
+/// Around two circles across one axis.
+fn around_circles(centres: [DVec3; 2], axis: DVec3, radii: [f64; 2]) -> Hull {
+    let (u, v) = axis.any_orthonormal_pair();
+    let ring = |end: usize| -> [DVec3; SIDES] {
+        std::array::from_fn(|i| {
+            let angle = 2.0 * PI * i as f64 / SIDES as f64;
+            let reach = radii[end] / libm::cos(PI / SIDES as f64) * (1.0 + MARGIN);
+            centres[end] + (u * libm::cos(angle) + v * libm::sin(angle)) * reach
+        })
+    };
+    let (low, high) = (ring(0), ring(1));
+    let mut hull = Hull::new();
+    for i in 0..SIDES {
+        let j = (i + 1) % SIDES;
+        hull.extend([[low[i], low[j], high[j]], [low[i], high[j], high[i]]]);
+        hull.extend([[centres[0], low[i], low[j]], [centres[1], high[i], high[j]]]);
+    }
+    hull
+}
+
+/// A box along the axes.
+fn box_between(low: Vec3, high: Vec3) -> Hull {
+    let size = (high.as_dvec3() - low.as_dvec3()).max_element();
+    let wider = DVec3::splat(size * MARGIN + allowance(low).max(allowance(high)));
+    let ends = [low.as_dvec3() - wider, high.as_dvec3() + wider];
+    let corner = |i: usize| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z);
+    let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let halves = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    halves.map(|triangle: [usize; 3]| triangle.map(corner)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::curved::Quadric;
+    use proptest::prelude::*;
+
+    /// Whether a point is inside of all faces, the middle being inside.
+    fn encloses(hull: &Hull, middle: DVec3, p: DVec3) -> bool {
+        hull.iter().all(|[a, b, c]| {
+            let normal = (b - a).cross(c - a);
+            normal.dot(p - a) * normal.dot(middle - a) > 0.0
+        })
+    }
+
+    fn unit_vector() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-1.0f64..1.0)
+            .prop_map(DVec3::from)
+            .prop_filter("long enough", |v| v.length() > 0.1)
+            .prop_map(DVec3::normalize)
+    }
+
+    proptest! {
+        #[test]
+        fn points_of_the_surface_are_inside(
+            centre in prop::array::uniform3(-100.0f32..100.0),
+            along in prop::array::uniform3(-3.0f32..3.0),
+            radii in prop::array::uniform2(0.001f32..2.0),
+            direction in unit_vector(),
+            share in 0.0f64..1.0,
+        ) {
+            let (centre, along) = (Vec3::from(centre), Vec3::from(along));
+            prop_assume!(along.length() > 0.01);
+            let middle = centre.as_dvec3();
+            let sphere = outer(&Shape::sphere(centre, radii[0])).unwrap();
+            prop_assert_eq!(sphere.len(), 20);
+            prop_assert!(encloses(&sphere, middle, middle + direction * f64::from(radii[0])));
+            let axes = [along, along.any_orthogonal_vector() * 0.1, Vec3::new(radii[0], 0.3, 0.0)];
+            let ellipsoid = Shape::Ellipsoid(Ellipsoid { centre, axes });
+            if ellipsoid.defect().is_none() {
+                let p = axes.iter().zip(direction.to_array()).fold(middle, |p, (a, x)| p + a.as_dvec3() * x);
+                prop_assert!(encloses(&outer(&ellipsoid).unwrap(), middle, p));
+            }
+            let across = along.as_dvec3().cross(direction).normalize();
+            let cone = Shape::cone(centre, radii[0], centre + along, radii[1]);
+            let apex = (centre + along).as_dvec3();
+            let radius = f64::from(radii[0]) + share * f64::from(radii[1] - radii[0]);
+            let on_wall = middle + (apex - middle) * share + across * radius;
+            prop_assert!(encloses(&outer(&cone).unwrap(), (middle + apex) / 2.0, on_wall));
+            let disc = Shape::Disc(Disc { centre, normal: along, radius: radii[0] });
+            prop_assert!(encloses(&outer(&disc).unwrap(), middle, middle + across * f64::from(radii[0])));
+        }
+    }
+
+    #[test]
+    fn a_quadric_is_inside_its_box() {
+        let quadric = Shape::Quadric(Quadric {
+            reference: Vec3::ZERO,
+            second: [1.0, 1.0, -1.0, 0.0, 0.0, 0.0],
+            first: Vec3::ZERO,
+            constant: -1.0,
+            low: Vec3::new(-2.0, -3.0, -1.0),
+            high: Vec3::new(2.0, 3.0, 1.0),
+        });
+        let hull = outer(&quadric).unwrap();
+        for corner in [DVec3::new(-2.0, -3.0, -1.0), DVec3::new(2.0, 3.0, 1.0), DVec3::new(2.0, -3.0, 1.0)] {
+            assert!(encloses(&hull, DVec3::ZERO, corner));
+        }
+        assert!(!encloses(&hull, DVec3::ZERO, DVec3::new(2.1, 0.0, 0.0)));
+    }
+
+    #[test]
+    fn a_very_flat_ellipsoid_has_a_box() {
+        let axes = [Vec3::X, Vec3::Y, Vec3::Z * 1e-20];
+        let flat = Shape::Ellipsoid(Ellipsoid { centre: Vec3::splat(100.0), axes });
+        assert_eq!(outer(&flat).unwrap().len(), 12);
+    }
+}

@@ -1,0 +1,70 @@
+//! One primitive against one segment, behind the float filter: what every exact native tester ends in.
+
+use super::Counters;
+use crate::geometry::ExactPosition;
+use crate::geometry::curved::Base;
+use crate::geometry::occlusion::{PreciseQuery, Stage};
+use crate::scene::{Primitive, PrimitiveIndex, Scene};
+use crate::visibility::SurfacePoint;
+
+/// Whether a primitive blocks the open segment between a point and the light (TRUTH, "Occluded").
+pub fn blocks<F: Fn() -> ExactPosition>(
+    scene: &Scene,
+    primitive: PrimitiveIndex,
+    point: &SurfacePoint,
+    query: &PreciseQuery<F>,
+    counters: &mut Counters,
+) -> bool {
+    let (blocks, stage) = match scene.primitive(primitive) {
+        // A point is never strictly behind the plane that it lies in.
+        Primitive::Triangle(corners) => query.blocks(corners),
+        Primitive::Curved(shape) => {
+            let (meetings, stage) = query.meets(shape, base(primitive, point));
+            (meetings.any(), stage)
+        }
+    };
+    counters.exact += u64::from(stage == Stage::Exact);
+    blocks && is_there(scene, primitive, query)
+}
+
+/// How often the open segment crosses a transparent primitive, where what is on its edge is decided as for
+/// segments that are turned a little (TRUTH, "Transparent").
+pub fn crossings_of<F: Fn() -> ExactPosition>(
+    scene: &Scene,
+    primitive: PrimitiveIndex,
+    point: &SurfacePoint,
+    query: &PreciseQuery<F>,
+    counters: &mut Counters,
+) -> u8 {
+    counters.tests += 1;
+    let (crossings, stage) = match scene.primitive(primitive) {
+        Primitive::Triangle(_) if point.primitive() == Some(primitive) => (0, Stage::Double),
+        Primitive::Triangle(corners) => {
+            let (crosses, stage) = query.crosses(corners);
+            (u8::from(crosses && is_there(scene, primitive, query)), stage)
+        }
+        Primitive::Curved(shape) => {
+            let (meetings, stage) = query.meets(shape, base(primitive, point));
+            (meetings.crossings, stage)
+        }
+    };
+    counters.exact += u64::from(stage == Stage::Exact);
+    crossings
+}
+
+/// Whether a point lies on a primitive.
+fn base(primitive: PrimitiveIndex, point: &SurfacePoint) -> Base {
+    if point.primitive() == Some(primitive) { Base::Own } else { Base::Other }
+}
+
+/// Whether a primitive that blocks a segment is there where that passes through it, and not a hole of its
+/// mask.
+pub fn is_there<F: Fn() -> ExactPosition>(
+    scene: &Scene,
+    primitive: PrimitiveIndex,
+    query: &PreciseQuery<F>,
+) -> bool {
+    scene
+        .masked(primitive)
+        .is_none_or(|masked| masked.is_there(query.texels(scene.corners(primitive), &masked.axes())))
+}
