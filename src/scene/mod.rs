@@ -14,6 +14,7 @@ mod light;
 mod material;
 mod merge;
 mod primitive;
+pub mod procedural;
 
 pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};

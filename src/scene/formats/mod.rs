@@ -11,7 +11,7 @@ mod looking;
 mod nff;
 mod obj;
 mod ply;
-mod polygon;
+pub(super) mod polygon;
 pub(super) mod shading_normals;
 mod text;
 mod toml;

@@ -5,11 +5,11 @@ use robust::Coord;
 
 /// The triangles of a polygon, as indices of its corners.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Cut {
+pub(in crate::scene) struct Cut {
     /// Three indices into the polygon's corners each, wound as the polygon is.
-    pub(super) triangles: Vec<[usize; 3]>,
+    pub(in crate::scene) triangles: Vec<[usize; 3]>,
     /// Whether the outline crosses itself, so that no cut is right.
-    pub(super) crossed: bool,
+    pub(in crate::scene) crossed: bool,
 }
 
 /// Cuts a polygon of at least three corners into triangles, or says why it cannot.
@@ -21,7 +21,7 @@ pub(super) struct Cut {
 ///
 /// # Errors
 /// A line for a polygon that is not convex and has more than `max_concave` corners.
-pub(super) fn triangulate(corners: &[Vec3], max_concave: usize) -> Result<Cut, String> {
+pub(in crate::scene) fn triangulate(corners: &[Vec3], max_concave: usize) -> Result<Cut, String> {
     let count = corners.len();
     if count == 3 {
         return Ok(Cut { triangles: vec![[0, 1, 2]], crossed: false });

@@ -1,0 +1,22 @@
+//! Scenes that are made and not read: the seven environments of the 1986 paper, by our own design after its
+//! counts, and the Standard Procedural Databases.
+//!
+//! Each is a function of nothing but its size factor: random numbers come from a generator of ours and
+//! trigonometry from `libm`, so that a scene has the same bits everywhere.
+
+mod random;
+mod registry;
+mod shapes;
+mod studio;
+
+mod chessboard;
+mod gazebo;
+mod glass_leaved_tree;
+mod highchair;
+mod house_of_cards;
+mod kitchen;
+
+#[cfg(test)]
+mod tests;
+
+pub use registry::{BUILTIN, Builtin, SizeFactor, find};

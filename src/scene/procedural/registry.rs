@@ -1,0 +1,89 @@
+//! The scenes by name.
+
+use super::{chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen};
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+
+/// A scene that is made and not read.
+#[derive(Debug, Clone, Copy)]
+pub struct Builtin {
+    /// What it is asked for by.
+    pub name: &'static str,
+    /// What it shows, in a line.
+    pub summary: &'static str,
+    /// How large it can be made, if that can be chosen.
+    pub size_factor: Option<SizeFactor>,
+    make: Make,
+}
+
+/// How large a scene can be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SizeFactor {
+    /// The size of the published statistics.
+    pub standard: u32,
+    /// The largest whose primitives are within what a scene may hold.
+    pub largest: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Make {
+    /// There is one size.
+    Fixed(fn() -> Result<Scene>),
+    /// By size factor.
+    Sized(fn(u32) -> Result<Scene>),
+}
+
+/// All of them: the environments of the paper in its order, then the databases in theirs.
+pub const BUILTIN: &[Builtin] = &[
+    fixed("chessboard", "a game of chess after four moves (figure 5)", chessboard::build),
+    fixed("house-of-cards", "forty cards on a polished table (figure 6)", house_of_cards::build),
+    fixed("highchair", "a child's chair of turned wood (figure 7)", highchair::build),
+    fixed("gazebo", "an octagonal gazebo by candles and moonlight (figure 8)", gazebo::build),
+    fixed(
+        "glass-leaved-tree",
+        "a tree with spheres of glass for leaves (figure 9)",
+        glass_leaved_tree::build,
+    ),
+    fixed("counter-top", "glass, fruit and pots on a polished counter (figure 10)", kitchen::counter_top),
+    fixed("kitchen", "the same from further away (figure 11)", kitchen::kitchen),
+];
+
+const fn fixed(name: &'static str, summary: &'static str, make: fn() -> Result<Scene>) -> Builtin {
+    Builtin { name, summary, size_factor: None, make: Make::Fixed(make) }
+}
+
+/// The scene of this name.
+///
+/// # Errors
+/// [`Error::Usage`] if there is none; the line lists those that there are.
+pub fn find(name: &str) -> Result<&'static Builtin> {
+    BUILTIN.iter().find(|scene| scene.name == name).ok_or_else(|| {
+        let names: Vec<_> = BUILTIN.iter().map(|scene| scene.name).collect();
+        Error::Usage(format!("no built-in scene `{name}`; there are {}", names.join(", ")))
+    })
+}
+
+impl Builtin {
+    /// Makes the scene, of the standard size if none is given.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a size factor that the scene does not have, or of which it would be too small or
+    /// too large.
+    pub fn build(&self, size_factor: Option<u32>) -> Result<Scene> {
+        let wrong = |what: String| Err(Error::Usage(format!("builtin:{}: {what}", self.name)));
+        match (self.make, self.size_factor, size_factor) {
+            (Make::Fixed(_), _, Some(_)) => wrong("the scene has one size; expected no size factor".into()),
+            (Make::Fixed(make), _, None) => make(),
+            (Make::Sized(make), Some(range), factor) => {
+                let factor = factor.unwrap_or(range.standard);
+                match (1..=range.largest).contains(&factor) {
+                    true => make(factor),
+                    false => {
+                        wrong(format!("expected a size factor from 1 to {}, found {factor}", range.largest))
+                    }
+                }
+            }
+            (Make::Sized(_), None, _) => wrong("the scene has no range of sizes".into()),
+        }
+    }
+}
