@@ -5,7 +5,7 @@
 //! `meshes/teapot.obj`, `meshes/balloon/scene.gltf` and the seven of `spd/`. They compare answers query by query, never totals.
 
 use lightbuffer::geometry::curved::Shape;
-use lightbuffer::measure::{answer, timed};
+use lightbuffer::measure::{Question, answer, timed};
 use lightbuffer::scene::{Camera, CurvedPrimitive, Dropped, Framing, ImageSize, Scene, formats, frame};
 use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::{BuildInput, Resolution, SceneIndex, find};
@@ -177,7 +177,7 @@ fn compare_masks(subject: &Subject) {
             let queries = view.queries(size(160, 90));
             let mask = |(light, queries): (usize, &Queries)| {
                 let tester = (light_buffer.build)(&view.input(light, resolution)).unwrap();
-                answer(tester.as_ref(), &queries.points, &|_| ()).unwrap().occluded
+                answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| ()).unwrap().occluded
             };
             queries.iter().enumerate().map(mask).collect()
         })
