@@ -8,6 +8,7 @@ mod defect;
 mod first_hit;
 mod gradient;
 pub(crate) mod hull;
+pub(crate) mod inner;
 mod meeting;
 mod on_line;
 mod ray_start;
