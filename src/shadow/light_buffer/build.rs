@@ -7,6 +7,7 @@
 use super::cell::{self, Candidate, Cover, Dropped, Role};
 use super::cells::{Cells, side_grid};
 use super::convex_cover::ConvexObjects;
+use super::cube_coherence::SideBits;
 use super::groups::{CellGroups, Group, Grouping};
 use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
@@ -64,13 +65,38 @@ pub(super) fn build(
     cells: &Cells,
     resolution: u32,
 ) -> Result<(Vec<Option<SideLists>>, Statistics)> {
+    let touched = |t: PrimitiveIndex| cells.touched_sides(&casters.space, input.scene.corners(t));
+    build_on(input, casters, receiving_only, cells, resolution, touched)
+}
+
+/// A triangle and the sides that it may project on.
+struct Part {
+    primitive: PrimitiveIndex,
+    role: Role,
+    sides: SideBits,
+}
+
+/// Casts every triangle on the sides that `touched` says, which are at least those that it has a footprint on.
+pub(super) fn build_on(
+    input: &BuildInput,
+    casters: &Casters,
+    receiving_only: &[PrimitiveIndex],
+    cells: &Cells,
+    resolution: u32,
+    touched: impl Fn(PrimitiveIndex) -> SideBits + Sync,
+) -> Result<(Vec<Option<SideLists>>, Statistics)> {
+    let part = |primitive, role| Part { primitive, role, sides: touched(primitive) };
+    let blocking = casters.primitives.par_iter().enumerate();
+    let blocking = blocking.map(|(caster, &t)| part(t, Role::Blocks(caster as u32)));
+    let receiving = receiving_only.par_iter().map(|&t| part(t, Role::ReceivesOnly));
+    let parts: Vec<Part> = blocking.chain(receiving).collect();
     let grid = side_grid(resolution);
     let convex = ConvexObjects::new(input, casters);
     let grouping = Grouping::new(input, casters);
     let mut statistics = Statistics { resolution, ..Statistics::default() };
     let mut sides = Vec::with_capacity(cells.sides());
     for side in 0..cells.sides() {
-        let casts = project(input, casters, receiving_only, &cells.frame(side), &grid);
+        let casts = project(input, casters, &parts, side, &cells.frame(side), &grid);
         let window = Window::around(&casts);
         if window.is_empty() {
             sides.push(None);
@@ -90,20 +116,19 @@ pub(super) fn build(
 fn project(
     input: &BuildInput,
     casters: &Casters,
-    receiving_only: &[PrimitiveIndex],
+    parts: &[Part],
+    side: usize,
     frame: &Frame,
     grid: &Grid,
 ) -> Vec<Cast> {
-    let cast = |primitive: PrimitiveIndex, role: Role| {
-        let corners = oriented(casters.space.light(), input.scene.corners(primitive))?;
+    let cast = |part: &Part| {
+        let corners = oriented(casters.space.light(), input.scene.corners(part.primitive))?;
         let planes = OrientedPlanes::new(&casters.space, corners.map(Vec3::as_dvec3));
-        let has_gaps = role == Role::ReceivesOnly || input.scene.masked(primitive).is_some();
+        let has_gaps = part.role == Role::ReceivesOnly || input.scene.masked(part.primitive).is_some();
         let most = if has_gaps { Cover::Part } else { Cover::Whole };
-        Some(Cast { role, most, footprint: Footprint::new(grid, frame, &planes)? })
+        Some(Cast { role: part.role, most, footprint: Footprint::new(grid, frame, &planes)? })
     };
-    let blocking = casters.primitives.par_iter().enumerate();
-    let blocking = blocking.filter_map(|(caster, &t)| cast(t, Role::Blocks(caster as u32)));
-    blocking.chain(receiving_only.par_iter().filter_map(|&t| cast(t, Role::ReceivesOnly))).collect()
+    parts.par_iter().filter(|part| part.sides >> side & 1 == 1).filter_map(cast).collect()
 }
 
 /// Checks what the lists of one side can need before they are made: an entry and its place in the order for

@@ -5,6 +5,7 @@
 //! them may be looked up, since triangles are entered into every closed cell that they meet (rows 1 and 13).
 
 use super::cube::{self, Face};
+use super::cube_coherence::{SideBits, touched_sides};
 use super::sheet::Sheet;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::footprint::{Frame, Grid};
@@ -49,6 +50,14 @@ impl Cells {
     pub fn sides(&self) -> usize {
         match self {
             Cells::Cube => Face::ALL.len(),
+            Cells::Sheet(_) => 1,
+        }
+    }
+
+    /// The sides that a triangle may project on, a bit each: a superset.
+    pub(super) fn touched_sides(&self, space: &LightSpace, corners: [Vec3; 3]) -> SideBits {
+        match self {
+            Cells::Cube => touched_sides(corners.map(|p| p.as_dvec3() - space.origin().as_dvec3())),
             Cells::Sheet(_) => 1,
         }
     }

@@ -12,6 +12,7 @@ pub mod cells;
 mod convex_cover;
 mod convex_self;
 pub mod cube;
+mod cube_coherence;
 mod groups;
 mod roles;
 pub mod sheet;
@@ -67,7 +68,7 @@ struct Header {
 }
 
 /// The lists of the part of one side that triangles project on.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct SideLists {
     first: [u32; 2],
     count: [u32; 2],
