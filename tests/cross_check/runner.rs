@@ -8,7 +8,10 @@ use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::facing::Sides;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
+use lightbuffer::shadow::{
+    BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, TesterEntry,
+    VolumeThreshold,
+};
 use lightbuffer::verdict::Queries;
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
@@ -19,11 +22,26 @@ pub const RECORDED_CHECKSUM: u64 = 13_875_451_308_638_135_911;
 pub const EMBREE_EPSILON: f32 = 1e-4;
 
 /// How a tester is built and run.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Setting {
     pub resolution: Resolution,
     pub culling: Culling,
+    pub bounding_volumes: VolumeThreshold,
+    pub object_coherence: ObjectCoherence,
     pub threads: usize,
+}
+
+impl Setting {
+    /// A resolution, everything else as usual, in two threads.
+    pub const fn of(resolution: Resolution) -> Setting {
+        Setting {
+            resolution,
+            culling: Culling::Off,
+            bounding_volumes: VolumeThreshold::Off,
+            object_coherence: ObjectCoherence::Off,
+            threads: 2,
+        }
+    }
 }
 
 /// A case with its queries: what its camera sees, light by light.
@@ -46,6 +64,8 @@ impl<'a> Asked<'a> {
         BuildInput {
             resolution: setting.resolution,
             culling: setting.culling,
+            bounding_volumes: setting.bounding_volumes,
+            object_coherence: setting.object_coherence,
             embree: EmbreeSettings { epsilon: EMBREE_EPSILON, threads: setting.threads },
             ..BuildInput::new(&self.case.scene, &self.index, light)
         }
@@ -107,10 +127,26 @@ impl<'a> Asked<'a> {
         }
     }
 
+    /// Bounding-volume records of the light buffers, light by light.
+    pub fn bounding_volumes(&self, setting: Setting) -> Vec<u64> {
+        let count = |(light, _): &(LightPosition, Queries)| {
+            LightBuffer::new(&self.input(*light, setting)).unwrap().counts().bounding_volumes
+        };
+        self.lights.iter().map(count).collect()
+    }
+
+    /// Queries of all lights that the last occluder answers.
+    pub fn coherence_hits(&self, setting: Setting) -> u64 {
+        let hits = |(light, queries): &(LightPosition, Queries)| {
+            let buffer = LightBuffer::new(&self.input(*light, setting)).unwrap();
+            answer(&buffer, &queries.points, &|_| {}).unwrap().counters.coherence_hits
+        };
+        self.lights.iter().map(hits).sum()
+    }
+
     /// Triangles that are culled, light by light.
     pub fn culled(&self) -> Vec<u64> {
-        let setting =
-            Setting { resolution: Resolution::Cells(1), culling: Culling::ClosedSolids, threads: 1 };
+        let setting = Setting { culling: Culling::ClosedSolids, ..Setting::of(Resolution::Cells(1)) };
         let culled = |(light, _): &(LightPosition, Queries)| {
             LightBuffer::new(&self.input(*light, setting)).unwrap().counts().culled
         };

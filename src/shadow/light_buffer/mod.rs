@@ -23,9 +23,11 @@ mod walk;
 pub use audit::Audit;
 
 use super::{
-    Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry, is_there,
+    Basis, BuildInput, Casters, Counters, ObjectCoherence, Receivers, Resolution, ShadowTester, TesterEntry,
+    is_there,
 };
 use crate::error::{Error, Result};
+use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::volume::Volume;
 use crate::scene::Scene;
@@ -134,6 +136,7 @@ pub struct LightBuffer<'a> {
     receivers: Receivers,
     casters: Casters,
     harmless: HarmlessObjects,
+    coherence: ObjectCoherence,
     /// The volume of each object; empty if no list has bounding-volume records.
     volumes: Vec<Option<Volume>>,
     cells: Cells,
@@ -171,6 +174,7 @@ impl<'a> LightBuffer<'a> {
             receivers: input.receivers,
             casters,
             harmless: HarmlessObjects::new(input),
+            coherence: input.object_coherence,
             volumes,
             cells,
             sides,
@@ -183,39 +187,79 @@ impl<'a> LightBuffer<'a> {
         self.statistics
     }
 
-    /// Whether one point is occluded.
-    fn is_occluded(&self, point: &SurfacePoint, counters: &mut Counters) -> bool {
-        let space = &self.casters.space;
-        let query = PreciseQuery::new(space, point.position, || point.exact(self.scene));
-        let resolution = self.statistics.resolution;
-        let Some((at, exactly)) = self.cells.locate(space, point.position, resolution, &query) else {
-            return false;
+    /// What occludes a point.
+    fn occluder<F: Fn() -> ExactPosition>(
+        &self,
+        point: &SurfacePoint,
+        query: &PreciseQuery<F>,
+        counters: &mut Counters,
+    ) -> Occluder {
+        let (space, resolution) = (&self.casters.space, self.statistics.resolution);
+        let Some((at, exactly)) = self.cells.locate(space, point.position, resolution, query) else {
+            return Occluder::Nothing;
         };
         counters.cells += 1;
         counters.exact += u64::from(exactly);
-        let Some(lists) = &self.sides[at.side] else { return false };
-        let Some(cell) = lists.cell(at.column, at.row) else { return false };
+        let Some(lists) = &self.sides[at.side] else { return Occluder::Nothing };
+        let Some(cell) = lists.cell(at.column, at.row) else { return Occluder::Nothing };
         let (full_occlusion, list) = lists.list(cell);
         if f64::from(full_occlusion) < at.z_low {
             counters.full_occlusions += 1;
-            return true;
+            return Occluder::FullOcclusion;
         }
         counters.lists += u64::from(!list.is_empty());
-        let asked = self.asked(point, &query);
-        self.blocking_caster(list, lists.groups.of(cell), &asked, at.z_high, counters).is_some()
+        let asked = self.asked(point, query);
+        let blocking = self.blocking_caster(list, lists.groups.of(cell), &asked, at.z_high, counters);
+        blocking.map_or(Occluder::Nothing, Occluder::Caster)
     }
+
+    /// Whether a point is occluded. With object coherence (row 20) `last` is the caster that occluded the one
+    /// before, if it is known, and is tried first: by the whole predicate, so that no answer depends on it.
+    fn is_occluded(
+        &self,
+        point: &SurfacePoint,
+        last: Option<&mut Option<u32>>,
+        counters: &mut Counters,
+    ) -> bool {
+        let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
+        let Some(last) = last else { return self.occluder(point, &query, counters) != Occluder::Nothing };
+        if let Some(caster) = *last
+            && self.blocks(caster, &self.asked(point, &query), counters)
+        {
+            counters.coherence_hits += 1;
+            return true;
+        }
+        let occluder = self.occluder(point, &query, counters);
+        *last = match occluder {
+            Occluder::Caster(caster) => Some(caster),
+            Occluder::FullOcclusion | Occluder::Nothing => None,
+        };
+        occluder != Occluder::Nothing
+    }
+}
+
+/// What keeps the light from a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Occluder {
+    Nothing,
+    /// What covers the whole cell.
+    FullOcclusion,
+    /// The caster with this index.
+    Caster(u32),
 }
 
 impl ShadowTester for LightBuffer<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
         let mut counters = Counters::default();
+        let mut last = None;
         for (point, answer) in points.iter().zip(answers) {
             if self.receivers == Receivers::Surfaces && point.primitive().is_none() {
                 return Err(Error::Usage(
                     "light buffer: built for points on surfaces; build it with Receivers::Anywhere".into(),
                 ));
             }
-            *answer = self.is_occluded(point, &mut counters);
+            let last = (self.coherence == ObjectCoherence::LastOccluder).then_some(&mut last);
+            *answer = self.is_occluded(point, last, &mut counters);
         }
         Ok(counters)
     }
