@@ -2,13 +2,16 @@
 
 use crate::cases::Case;
 use lightbuffer::geometry::LightPosition;
-use lightbuffer::measure::answer;
+use lightbuffer::measure::{Question, answer};
 use lightbuffer::scene::Light;
 use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
+use lightbuffer::shadow::{
+    BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, TesterEntry,
+    VolumeThreshold,
+};
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
 /// Checksum of the masks of all cases, the same in every build profile.
@@ -18,11 +21,26 @@ pub const RECORDED_CHECKSUM: u64 = 13_875_451_308_638_135_911;
 pub const EMBREE_EPSILON: f32 = 1e-4;
 
 /// How a tester is built and run.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Setting {
     pub resolution: Resolution,
     pub culling: Culling,
+    pub bounding_volumes: VolumeThreshold,
+    pub object_coherence: ObjectCoherence,
     pub threads: usize,
+}
+
+impl Setting {
+    /// A resolution, everything else as usual, in two threads.
+    pub const fn of(resolution: Resolution) -> Setting {
+        Setting {
+            resolution,
+            culling: Culling::Off,
+            bounding_volumes: VolumeThreshold::Off,
+            object_coherence: ObjectCoherence::Off,
+            threads: 2,
+        }
+    }
 }
 
 /// A case with its queries: what its camera sees, light by light.
@@ -44,6 +62,8 @@ impl<'a> Asked<'a> {
         BuildInput {
             resolution: setting.resolution,
             culling: setting.culling,
+            bounding_volumes: setting.bounding_volumes,
+            object_coherence: setting.object_coherence,
             embree: EmbreeSettings { epsilon: EMBREE_EPSILON, threads: setting.threads },
             ..BuildInput::new(&self.case.scene, &self.index, light)
         }
@@ -92,7 +112,7 @@ impl<'a> Asked<'a> {
     /// Answers with the pixel and light they belong to, in an order that no index decides.
     pub fn by_pixel(&self, answers: &[bool]) -> Vec<(usize, u32, bool)> {
         let keys =
-            self.lights.iter().enumerate().flat_map(|(l, (_, q))| q.pixels.iter().map(move |&p| (l, p)));
+            self.lights.iter().enumerate().flat_map(|(l, (_, q))| q.nodes.iter().map(move |&node| (l, node)));
         keys.zip(answers).map(|((light, pixel), &answer)| (light, pixel, answer)).collect()
     }
 
@@ -105,10 +125,26 @@ impl<'a> Asked<'a> {
         }
     }
 
+    /// Bounding-volume records of the light buffers, light by light.
+    pub fn bounding_volumes(&self, setting: Setting) -> Vec<u64> {
+        let count = |(light, _): &(LightPosition, Queries)| {
+            LightBuffer::new(&self.input(*light, setting)).unwrap().counts().bounding_volumes
+        };
+        self.lights.iter().map(count).collect()
+    }
+
+    /// Queries of all lights that the last occluder answers.
+    pub fn coherence_hits(&self, setting: Setting) -> u64 {
+        let hits = |(light, queries): &(LightPosition, Queries)| {
+            let buffer = LightBuffer::new(&self.input(*light, setting)).unwrap();
+            answer(&buffer, &queries.points, Question::Occlusion, &|_| {}).unwrap().counters.coherence_hits
+        };
+        self.lights.iter().map(hits).sum()
+    }
+
     /// Triangles that are culled, light by light.
     pub fn culled(&self) -> Vec<u64> {
-        let setting =
-            Setting { resolution: Resolution::Cells(1), culling: Culling::ClosedSolids, threads: 1 };
+        let setting = Setting { culling: Culling::ClosedSolids, ..Setting::of(Resolution::Cells(1)) };
         let culled = |(light, _): &(LightPosition, Queries)| {
             LightBuffer::new(&self.input(*light, setting)).unwrap().counts().culled
         };
@@ -121,7 +157,7 @@ pub fn ask(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<bool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
     let one_light = |(light, queries): &(LightPosition, Queries)| {
         let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
-        answer(tester.as_ref(), &queries.points, &|_| {}).unwrap().occluded
+        answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| {}).unwrap().occluded
     };
     pool.install(|| asked.lights.iter().flat_map(one_light).collect())
 }

@@ -35,7 +35,9 @@ pub(crate) fn polygon(shape: &Shape, light: LightPosition) -> Option<Vec<DVec3>>
 /// How far behind its polygon a surface may be.
 pub(crate) fn margin(shape: &Shape) -> f64 {
     match shape {
-        Shape::Disc(disc) => 1e-6 * (f64::from(disc.radius) + disc.centre.as_dvec3().abs().max_element() * 1e-3),
+        Shape::Disc(disc) => {
+            1e-6 * (f64::from(disc.radius) + disc.centre.as_dvec3().abs().max_element() * 1e-3)
+        }
         _ => 0.0,
     }
 }
