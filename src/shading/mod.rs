@@ -8,8 +8,10 @@ mod light;
 mod normal;
 mod picture;
 mod shade;
+mod texture;
 
 pub use light::{LightSample, sample_light};
 pub use normal::{geometric_normal, shading_normal};
 pub use picture::{ShadedPoint, shade_picture};
 pub use shade::{Ambient, shade};
+pub use texture::surface_colour;

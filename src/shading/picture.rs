@@ -1,6 +1,6 @@
 //! A whole picture: every visible point shaded by the lights that it sees.
 
-use super::{Ambient, LightSample, geometric_normal, sample_light, shade, shading_normal};
+use super::{Ambient, LightSample, geometric_normal, sample_light, shade, shading_normal, surface_colour};
 use crate::scene::{Camera, Light, Scene};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
 use glam::DVec3;
@@ -61,12 +61,16 @@ fn shade_point(
     let weights = barycentric(corners.map(|c| c.as_dvec3()), point.position);
     let normal = shading_normal(object.normals.as_ref(), within, weights, geometric);
     let material = scene.material(primitive);
-    let radiance = shade(material, normal, view, ambient, samples);
-    ShadedPoint { radiance, normal, albedo: material.diffuse, depth }
+    let albedo = surface_colour(scene, primitive, material, point.position);
+    let radiance = match material.texture {
+        None => shade(material, normal, view, ambient, samples),
+        Some(_) => shade(&material.painted(albedo), normal, view, ambient, samples),
+    };
+    ShadedPoint { radiance, normal, albedo, depth }
 }
 
 /// Weights of the corners at a point of the triangle; they add up to 1.
-fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
+pub(super) fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let area = normal.length_squared();
     if area == 0.0 {
