@@ -3,6 +3,7 @@
 //! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
 //! right, 1 done and a native answer is wrong, 2 usage or input error.
 
+mod generate;
 mod info;
 mod options;
 mod output;
@@ -38,6 +39,8 @@ enum Command {
     Replay(replay::Args),
     /// Say what a scene holds and what it calls for
     Info(info::Args),
+    /// Make a built-in scene, or list what there is
+    Generate(generate::Args),
 }
 
 /// How a command that ran to its end came out.
@@ -56,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Validate(args) => validate::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Generate(args) => generate::run(&args),
     };
     match outcome {
         Ok(Outcome::Right) => ExitCode::SUCCESS,
