@@ -4,6 +4,7 @@
 //! right, 1 done and a native answer is wrong, 2 usage or input error.
 
 mod counts;
+mod generate;
 mod info;
 mod options;
 mod output;
@@ -39,6 +40,8 @@ enum Command {
     Replay(replay::Args),
     /// Say what a scene holds and what it calls for
     Info(info::Args),
+    /// Make a built-in scene, or list what there is
+    Generate(generate::Args),
 }
 
 /// How a command that ran to its end came out.
@@ -57,6 +60,7 @@ pub fn run() -> ExitCode {
         Command::Validate(args) => validate::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Generate(args) => generate::run(&args),
     };
     match outcome {
         Ok(Outcome::Right) => ExitCode::SUCCESS,

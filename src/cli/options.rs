@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// What is looked at, and from where.
 #[derive(Debug, Args)]
 pub struct ViewOptions {
-    /// Scene file: .obj, .ply, .gltf, .glb, .nff or .toml
+    /// Scene file: .obj, .ply, .gltf, .glb, .nff or .toml; or builtin:NAME, see generate --list
     pub scene: PathBuf,
     /// Image size in pixels [default: the camera's own if the scene says one, else 1280x720]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]

@@ -17,18 +17,22 @@ pub(super) mod shading_normals;
 mod text;
 mod toml;
 
-use super::{Dropped, Scene};
+use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
 use std::path::Path;
 
 /// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`,
-/// `.nff` or `.toml`.
+/// `.nff` or `.toml`. `builtin:NAME` is no file but the scene of that name in
+/// [`procedural::BUILTIN`], at its standard size.
 ///
 /// Files that the scene names are read only from the folder that holds it, or from below.
 ///
 /// # Errors
 /// One line with file and place for whatever cannot be read, and for a file without a single primitive.
 pub fn load(path: &Path) -> Result<Scene> {
+    if let Some(name) = path.to_str().and_then(|path| path.strip_prefix(BUILTIN_PREFIX)) {
+        return procedural::find(name)?.build(None);
+    }
     let scene = match Format::of(path) {
         Some(Format::Obj) => obj::load(path)?,
         Some(Format::Ply) => ply::load(path)?,
@@ -51,6 +55,9 @@ pub fn load(path: &Path) -> Result<Scene> {
     }
     Ok(scene)
 }
+
+/// What a name begins with that is of a built-in scene and not of a file.
+pub const BUILTIN_PREFIX: &str = "builtin:";
 
 /// What the extension of a file's name says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -81,7 +81,7 @@ pub(super) fn build() -> Result<Scene> {
     studio.lamp("sun", [-14.0, 22.0, 12.0], [0.95, 0.9, 0.8]);
     studio.lamp("sky", [13.0, 17.0, 9.0], [0.24, 0.28, 0.36]);
     studio.lamp("low sun", [4.0, 9.0, -18.0], [0.32, 0.27, 0.2]);
-    studio.camera([6.0, 13.0, 23.0], [0.5, 4.9, 0.0], 35.0, PAPER_SIZE);
+    studio.camera([6.0, 13.0, 23.0], [0.5, 5.1, 0.0], 34.0, PAPER_SIZE);
     Ok(studio.finish())
 }
 

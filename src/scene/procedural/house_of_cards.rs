@@ -5,9 +5,9 @@
 
 use super::random::Random;
 use super::shapes::{Mesh, cuboid, moved, prism, rounded_rectangle, turned_y, turned_z};
-use super::studio::{PAPER_SIZE, Studio, glossy, polished};
+use super::studio::{PAPER_SIZE, Studio, polished};
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 
 /// A card, in units of its shorter side.
 const LENGTH: f64 = 1.4;
@@ -34,9 +34,9 @@ pub(super) fn build() -> Result<Scene> {
 
 fn add_house(studio: &mut Studio) -> Result<()> {
     let backs = [
-        glossy("red back", [0.62, 0.06, 0.06], 0.3, 60.0),
-        glossy("blue back", [0.07, 0.13, 0.48], 0.3, 60.0),
-        glossy("face", [0.82, 0.8, 0.74], 0.3, 60.0),
+        coated("red back", [0.62, 0.06, 0.06]),
+        coated("blue back", [0.07, 0.13, 0.48]),
+        coated("face", [0.82, 0.8, 0.74]),
     ]
     .map(|material| studio.material(material));
     let mut random = Random::new(1986);
@@ -77,6 +77,11 @@ fn add_house(studio: &mut Studio) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Coated paper mirrors a little.
+fn coated(name: &str, diffuse: [f32; 3]) -> Material {
+    polished(name, diffuse, 0.05)
 }
 
 fn wobble(random: &mut Random, most: f64) -> f64 {

@@ -15,6 +15,7 @@ mod glass_leaved_tree;
 mod highchair;
 mod house_of_cards;
 mod kitchen;
+mod spd;
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! The scenes by name.
 
-use super::{chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen};
+use super::{chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen, spd};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 
@@ -46,10 +46,27 @@ pub const BUILTIN: &[Builtin] = &[
     ),
     fixed("counter-top", "glass, fruit and pots on a polished counter (figure 10)", kitchen::counter_top),
     fixed("kitchen", "the same from further away (figure 11)", kitchen::kitchen),
+    sized("balls", "a fractal of mirroring spheres", 4, 6, spd::balls),
+    sized("gears", "a block of gears, some of glass", 4, 48, spd::gears),
+    sized("mount", "a fractal mountain and four spheres of glass", 6, 12, spd::mount),
+    sized("rings", "a pyramid of linked rings", 7, 80, spd::rings),
+    sized("teapot", "Newell's teapot on a chequered ground", 12, 1000, spd::teapot),
+    sized("tetra", "Sierpinski's tetrahedron", 6, 11, spd::tetra),
+    sized("tree", "a tree of cones and spheres under seven lights", 11, 18, spd::tree),
 ];
 
 const fn fixed(name: &'static str, summary: &'static str, make: fn() -> Result<Scene>) -> Builtin {
     Builtin { name, summary, size_factor: None, make: Make::Fixed(make) }
+}
+
+const fn sized(
+    name: &'static str,
+    summary: &'static str,
+    standard: u32,
+    largest: u32,
+    make: fn(u32) -> Result<Scene>,
+) -> Builtin {
+    Builtin { name, summary, size_factor: Some(SizeFactor { standard, largest }), make: Make::Sized(make) }
 }
 
 /// The scene of this name.

@@ -2,6 +2,7 @@
 
 use super::shapes::Body;
 use crate::error::Result;
+use crate::scene::formats::BUILTIN_PREFIX;
 use crate::scene::{
     Camera, Falloff, ImageSize, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder, Transmission,
 };
@@ -18,7 +19,7 @@ pub(super) struct Studio {
 impl Studio {
     /// An empty one for the scene of this name.
     pub fn new(name: &str) -> Studio {
-        Studio { builder: SceneBuilder::new(format!("builtin:{name}")) }
+        Studio { builder: SceneBuilder::new(format!("{BUILTIN_PREFIX}{name}")) }
     }
 
     /// A material by its number.

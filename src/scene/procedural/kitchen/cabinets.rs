@@ -103,11 +103,11 @@ fn add_counter(set: &mut Set) -> Result<()> {
     let slabs = [
         slab([0.001, 0.44], [0.002, 0.62]),
         slab([1.14, 2.195], [0.002, 0.62]),
-        slab([0.44, 1.14], [0.002, 0.1]).with(&slab([0.44, 1.14], [0.52, 0.62])),
+        slab([0.44, 1.14], [0.002, 0.1]),
+        slab([0.44, 1.14], [0.52, 0.62]),
+        slab([2.805, 3.315], [0.002, 0.62]),
     ];
-    let right = slab([2.805, 3.315], [0.002, 0.62]);
     studio.add("counter", palette.granite, Mesh::union(slabs))?;
-    studio.add("counter by the stove", palette.granite, right)?;
     let outline = rounded_rectangle([0.345, 0.205], 0.05, 3);
     let levels = [[high - 0.17, 0.97], [high + 0.006, 0.99], [high + 0.006, 0.95], [high - 0.16, 0.9]];
     let basin = bevelled_prism(&outline, &levels).placed(&moved(0.79, 0.0, 0.31));

@@ -93,8 +93,7 @@ fn add_board(set: &mut Set) -> Result<()> {
         studio.add(name, palette.wood, rod([from, y, z], [to, y, z - 0.02], radius))?;
     }
     studio.add("paper roll", palette.paper, column([3.22, ON_TOP, 0.12], 0.06, 0.25))?;
-    let book = cuboid([2.86, f64::from(ON_TOP), 0.36], [3.02, f64::from(ON_TOP) + 0.006, 0.56]);
-    let pages = cuboid([2.864, f64::from(ON_TOP) + 0.0065, 0.364], [3.016, f64::from(ON_TOP) + 0.034, 0.556]);
+    let pages = cuboid([2.864, f64::from(ON_TOP), 0.364], [3.016, f64::from(ON_TOP) + 0.034, 0.556]);
     let cover = cuboid([2.86, f64::from(ON_TOP) + 0.0345, 0.36], [3.02, f64::from(ON_TOP) + 0.04, 0.56]);
-    studio.add("cookbook", palette.blue, book.with(&pages).with(&cover))
+    studio.add("cookbook", palette.blue, pages.with(&cover))
 }

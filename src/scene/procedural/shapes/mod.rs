@@ -16,5 +16,5 @@ pub(super) use lathe::{Caps, lathe, turned_ring};
 pub(super) use loft::{Closing, loft, tube};
 pub(super) use mesh::Mesh;
 pub(super) use outline::{circle, rounded_rectangle};
-pub(super) use place::{along, moved, quarter_turned, scaled, turned_x, turned_y, turned_z};
+pub(super) use place::{along, moved, turned_x, turned_y, turned_z};
 pub(super) use prism::{bevelled_prism, prism};

@@ -7,11 +7,6 @@ pub(in crate::scene::procedural) fn moved(x: f64, y: f64, z: f64) -> DAffine3 {
     DAffine3::from_translation(DVec3::new(x, y, z))
 }
 
-/// Scaled along the axes.
-pub(in crate::scene::procedural) fn scaled(x: f64, y: f64, z: f64) -> DAffine3 {
-    DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(x, y, z)))
-}
-
 /// Turned about the x axis, from y to z.
 pub(in crate::scene::procedural) fn turned_x(angle: f64) -> DAffine3 {
     let (sin, cos) = libm::sincos(angle);
@@ -28,17 +23,6 @@ pub(in crate::scene::procedural) fn turned_y(angle: f64) -> DAffine3 {
 pub(in crate::scene::procedural) fn turned_z(angle: f64) -> DAffine3 {
     let (sin, cos) = libm::sincos(angle);
     DAffine3::from_mat3(DMat3::from_cols(DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z))
-}
-
-/// Turned about the y axis by so many right angles, exactly.
-pub(in crate::scene::procedural) fn quarter_turned(quarters: usize) -> DAffine3 {
-    let [x, z] = [
-        [DVec3::X, DVec3::Z],
-        [DVec3::NEG_Z, DVec3::X],
-        [DVec3::NEG_X, DVec3::NEG_Z],
-        [DVec3::Z, DVec3::NEG_X],
-    ][quarters % 4];
-    DAffine3::from_mat3(DMat3::from_cols(x, DVec3::Y, z))
 }
 
 /// What stands on the origin along y, put between two points and stretched along their distance.
