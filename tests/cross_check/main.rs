@@ -1,6 +1,7 @@
 //! Every tester that has a name over the same queries, one by one, against the definition in integers.
 
 mod cases;
+mod curved;
 #[cfg(feature = "embree")]
 mod embree;
 mod random;

@@ -3,7 +3,8 @@
 use crate::cases::Case;
 use lightbuffer::geometry::LightPosition;
 use lightbuffer::measure::{Question, answer};
-use lightbuffer::scene::Light;
+use lightbuffer::scene::{Light, PrimitiveIndex};
+use lightbuffer::shading::RayForest;
 use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
@@ -51,6 +52,16 @@ pub struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
+    /// What the camera sees, and what it sees in mirrors and behind glass by at most so many rays.
+    pub fn with_trees(case: &'a Case, depth: u32) -> Asked<'a> {
+        let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
+        let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
+        let forest = RayForest::grow(&case.scene, visible, case.size.pixels() as u64, depth);
+        let queries =
+            |light: &Light| (light.position(), Queries::new(&case.scene, &forest.nodes, light));
+        Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
+    }
+
     pub fn of(case: &'a Case) -> Asked<'a> {
         let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
         let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
@@ -90,6 +101,19 @@ impl<'a> Asked<'a> {
                 queries.points.iter().map(|p| plain.decide(p) == Occlusion::Occluded).collect::<Vec<_>>()
             })
             .collect()
+    }
+
+    /// The same, with what the segments of those that are not occluded cross.
+    pub fn plain_truth_all(&self) -> Vec<Answer> {
+        let decide = |(light, queries): &(LightPosition, Queries)| {
+            let plain = PlainTest::new(&self.case.scene, *light, &queries.points);
+            let one = |point| match plain.decide(point) {
+                Occlusion::Occluded => (true, Vec::new()),
+                Occlusion::Lit => (false, plain.crossed(point)),
+            };
+            queries.points.iter().map(one).collect::<Vec<_>>()
+        };
+        self.lights.iter().flat_map(decide).collect()
     }
 
     /// Fails with the first query, in bits, that is answered differently.
@@ -158,6 +182,22 @@ pub fn ask(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<bool> {
     let one_light = |(light, queries): &(LightPosition, Queries)| {
         let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
         answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| {}).unwrap().occluded
+    };
+    pool.install(|| asked.lights.iter().flat_map(one_light).collect())
+}
+
+/// Whether a point is occluded, and if not, what its segment crosses.
+pub type Answer = (bool, Vec<PrimitiveIndex>);
+
+/// A tester's answers to all queries of a case.
+pub fn ask_all(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<Answer> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
+    let one_light = |(light, queries): &(LightPosition, Queries)| {
+        let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
+        let question = Question::of(&asked.case.scene);
+        let answers = answer(tester.as_ref(), &queries.points, question, &|_| {}).unwrap();
+        let crossed = |i: usize| answers.crossings.as_ref().map_or(Vec::new(), |c| c.of(i).to_vec());
+        answers.occluded.iter().enumerate().map(|(i, &o)| (o, crossed(i))).collect::<Vec<_>>()
     };
     pool.install(|| asked.lights.iter().flat_map(one_light).collect())
 }
