@@ -49,6 +49,7 @@ impl View {
         replace_lights(&mut scene, lights)?;
         let camera = choose_camera(&scene, options.camera.as_deref())?;
         let size = options.size.or(camera.size).unwrap_or(USUAL_SIZE);
+        let (camera, size) = if options.corner_rays { camera.through_corners(size) } else { (camera, size) };
         Ok(View { scene, camera, size, added })
     }
 
