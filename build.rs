@@ -19,10 +19,12 @@ mod embree {
 
     const WITHOUT: &str = "or build without Embree: --no-default-features";
 
+    const SOURCES: [&str; 3] = ["ffi/shim.c", "ffi/queries.c", "ffi/curved.c"];
+
     /// What `src/embree` needs to be documented where nothing is installed: rustdoc wants types and the names in
     /// constants, and looks into no function.
     const DOCUMENTATION_ONLY: &str = "pub struct LbDevice; pub struct LbScene; pub struct LbDeviceInfo; \
-                                      pub struct LbRay; pub struct LbError; pub const LB_NO_TRIANGLE: u32 = u32::MAX;";
+                                      pub struct LbRay; pub struct LbError; pub struct LbCurved; pub const LB_NO_PRIMITIVE: u32 = u32::MAX;";
 
     /// Headers of one major version of Embree.
     struct Headers {
@@ -31,7 +33,7 @@ mod embree {
     }
 
     pub fn build() -> Result<(), String> {
-        for file in ["ffi/shim.h", "ffi/internal.h", "ffi/shim.c", "ffi/queries.c"] {
+        for file in ["ffi/shim.h", "ffi/internal.h"].into_iter().chain(SOURCES) {
             println!("cargo::rerun-if-changed={file}");
         }
         for variable in ["EMBREE_DIR", "LIBCLANG_PATH", "DOCS_RS"] {
@@ -100,7 +102,7 @@ mod embree {
 
     fn compile_shim(headers: &Headers) -> Result<(), String> {
         cc::Build::new()
-            .files(["ffi/shim.c", "ffi/queries.c"])
+            .files(SOURCES)
             .define("LB_EMBREE_MAJOR", headers.major.to_string().as_str())
             .flag("-isystem")
             .flag(&headers.include)

@@ -1,4 +1,4 @@
-/* What shim.c and queries.c share; nobody else includes this. */
+/* What the C files share; nobody else includes this. */
 #ifndef LIGHTBUFFER_INTERNAL_H
 #define LIGHTBUFFER_INTERNAL_H
 
@@ -30,11 +30,50 @@ struct LbDevice {
 struct LbScene {
     LbDevice *device;
     RTCScene handle;
-    /* Whether rays exclude triangles. */
+    /* Whether rays exclude primitives. */
     bool filtered;
     /* Whether triangles have holes, and which. */
     bool has_holes;
     LbHoles holes;
+    /* The rest of what it is made of; its `holes` is not used. */
+    LbParts parts;
+};
+
+/* What a ray query is to Embree. */
+#if LB_EMBREE_MAJOR == 4
+typedef struct RTCRayQueryContext EmbreeContext;
+#else
+typedef struct RTCIntersectContext EmbreeContext;
+#endif
+
+/* Where the transparent primitives go that rays meet. */
+typedef struct Collector {
+    /* What the indices of rays are counted from. */
+    const LbRay *first_ray;
+    LbCrossing *crossings;
+    size_t capacity;
+    size_t found;
+} Collector;
+
+/* Embree hands a pointer to `embree` to its callbacks, which find the rest there: `embree` must come first. */
+typedef struct QueryContext {
+    EmbreeContext embree;
+    /* The rays of this packet or stream, by ray id. */
+    const LbRay *rays;
+    /* Null if nobody wants to know. */
+    Collector *collector;
+} QueryContext;
+
+/*
+ * Rays of N lanes are arrays of 4-byte fields, one after another (rtcore_ray.h has accessors, for C++ only): field F of
+ * lane i is at F * N + i.
+ */
+enum {
+    ORIGIN_FIELD = 0,
+    T_NEAR_FIELD = 3,
+    DIRECTION_FIELD = 4,
+    T_FAR_FIELD = 8,
+    RAY_ID_FIELD = 10
 };
 
 /* The floating-point control word: MXCSR, or the C environment where there is none. */
@@ -63,8 +102,15 @@ void lb_fail(Call call, const char *text);
 bool lb_choose_denormals(bool flush);
 /* Whether Embree takes streams of rays. */
 bool lb_has_streams(const LbDevice *device);
+/* What the device says of itself. */
+uint32_t lb_property(const LbDevice *device, enum RTCDeviceProperty name);
 
-/* The filter of a scene with LB_SCENE_FILTERED or with holes; the mesh's user data is the LbScene. */
+/* The filter of a mesh with LB_SCENE_FILTERED, holes or transparent triangles; its user data is the LbScene. */
 void lb_reject_hits(const struct RTCFilterFunctionNArguments *arguments);
+/* Writes down that a ray meets a transparent primitive, if somebody wants to know. */
+void lb_collect(const QueryContext *context, uint32_t ray_id, size_t primitive, unsigned times);
+
+/* The geometry of a scene's curved surfaces; null if it cannot be made. The caller owns it. */
+RTCGeometry lb_new_curved(Call call, LbScene *scene);
 
 #endif

@@ -11,20 +11,7 @@
 #include <xmmintrin.h>
 #endif
 
-/* ---- The context of a query and the filter ---- */
-
-#if LB_EMBREE_MAJOR == 4
-typedef struct RTCRayQueryContext EmbreeContext;
-#else
-typedef struct RTCIntersectContext EmbreeContext;
-#endif
-
-/* Embree hands a pointer to `embree` to the filter, which is where the rest is found: `embree` must come first. */
-typedef struct QueryContext {
-    EmbreeContext embree;
-    /* Excluded triangle of each ray of the packet, by ray id. */
-    const uint32_t *excluded;
-} QueryContext;
+/* ---- The filter ---- */
 
 /* The texel of a row of `size` that shows at a texture coordinate. */
 static uint32_t texel(float coordinate, uint32_t size, uint32_t wrap)
@@ -55,13 +42,22 @@ static bool is_hole(const LbHoles *holes, uint32_t triangle, float u, float v)
     return !(mask->there[bit / 64] >> (bit % 64) & 1);
 }
 
-/*
- * Embree may call with any N up to the packet's width, lanes in any order, so a ray is known by its id alone. Rays
- * and hits of N lanes are arrays of 4-byte fields, one after another (rtcore_ray.h has accessors, for C++ only).
- */
+void lb_collect(const QueryContext *context, uint32_t ray_id, size_t primitive, unsigned times)
+{
+    Collector *collector = context->collector;
+    if (!collector)
+        return;
+    if (collector->found < collector->capacity) {
+        const size_t ray = (size_t)(context->rays - collector->first_ray) + ray_id;
+        collector->crossings[collector->found] = (LbCrossing){ (uint32_t)ray, (uint32_t)primitive, times };
+    }
+    collector->found++;
+}
+
+/* Embree may call with any N up to the packet's width, lanes in any order, so a ray is known by its id alone. */
 void lb_reject_hits(const struct RTCFilterFunctionNArguments *arguments)
 {
-    enum { RAY_ID_FIELD = 10, HIT_U_FIELD = 3, HIT_V_FIELD = 4, HIT_PRIMITIVE_FIELD = 5 };
+    enum { HIT_U_FIELD = 3, HIT_V_FIELD = 4, HIT_PRIMITIVE_FIELD = 5 };
     const QueryContext *context = (const QueryContext *)arguments->context;
     const LbScene *scene = arguments->geometryUserPtr;
     const unsigned int lanes = arguments->N;
@@ -73,9 +69,13 @@ void lb_reject_hits(const struct RTCFilterFunctionNArguments *arguments)
         if (arguments->valid[lane] != -1)
             continue;
         const float u = hit[HIT_U_FIELD * lanes + lane], v = hit[HIT_V_FIELD * lanes + lane];
-        const bool is_excluded = scene->filtered && context->excluded[ray_id[lane]] == primitive[lane];
-        if (is_excluded || (scene->has_holes && is_hole(&scene->holes, primitive[lane], u, v)))
+        const bool is_excluded = scene->filtered && context->rays[ray_id[lane]].excluded == primitive[lane];
+        if (is_excluded || (scene->has_holes && is_hole(&scene->holes, primitive[lane], u, v))) {
             arguments->valid[lane] = 0;
+        } else if (scene->parts.transparent && scene->parts.transparent[primitive[lane]]) {
+            lb_collect(context, ray_id[lane], primitive[lane], 1);
+            arguments->valid[lane] = 0;
+        }
     }
 }
 
@@ -85,14 +85,15 @@ void lb_reject_hits(const struct RTCFilterFunctionNArguments *arguments)
 #if LB_EMBREE_MAJOR == 4
 typedef struct RTCOccludedArguments QueryArguments;
 
-static QueryArguments query_arguments(QueryContext *context, uint32_t flags)
+static QueryArguments query_arguments(QueryContext *context, const LbScene *scene, uint32_t flags)
 {
     QueryArguments arguments;
+    const unsigned curved = scene->parts.curved_count ? RTC_FEATURE_FLAG_USER_GEOMETRY_CALLBACK_IN_GEOMETRY : 0;
     rtcInitRayQueryContext(&context->embree);
     rtcInitOccludedArguments(&arguments);
     arguments.flags = flags & LB_QUERY_COHERENT ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
     arguments.feature_mask =
-        (enum RTCFeatureFlags)(RTC_FEATURE_FLAG_TRIANGLE | RTC_FEATURE_FLAG_FILTER_FUNCTION_IN_GEOMETRY);
+        (enum RTCFeatureFlags)(RTC_FEATURE_FLAG_TRIANGLE | RTC_FEATURE_FLAG_FILTER_FUNCTION_IN_GEOMETRY | curved);
     arguments.context = &context->embree;
     return arguments;
 }
@@ -102,8 +103,9 @@ static QueryArguments query_arguments(QueryContext *context, uint32_t flags)
 #else
 typedef EmbreeContext *QueryArguments;
 
-static QueryArguments query_arguments(QueryContext *context, uint32_t flags)
+static QueryArguments query_arguments(QueryContext *context, const LbScene *scene, uint32_t flags)
 {
+    (void)scene;
     rtcInitIntersectContext(&context->embree);
     context->embree.flags =
         flags & LB_QUERY_COHERENT ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
@@ -136,13 +138,15 @@ static inline struct RTCRay embree_ray(const LbRay *from, unsigned id)
     return ray;
 }
 
-static void occluded_1(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, uint8_t *answers)
+static void occluded_1(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, Collector *collector,
+                       uint8_t *answers)
 {
     QueryContext context;
-    QueryArguments arguments = query_arguments(&context, flags);
+    QueryArguments arguments = query_arguments(&context, scene, flags);
+    context.collector = collector;
     for (size_t i = 0; i < count; i++) {
         struct RTCRay ray = embree_ray(&rays[i], 0);
-        context.excluded = &rays[i].excluded;
+        context.rays = &rays[i];
         OCCLUDED_1(scene->handle, &ray, &arguments);
         answers[i] = answer(ray.tfar);
     }
@@ -153,19 +157,18 @@ static void occluded_1(const LbScene *scene, const LbRay *rays, size_t count, ui
  * Streams of LB_STREAM rays, the last one shorter: so many fit on the stack and in the first cache, and Embree itself
  * takes a stream apart into pieces that are shorter still.
  */
-static void occluded_stream(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags, uint8_t *answers)
+static void occluded_stream(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags,
+                            Collector *collector, uint8_t *answers)
 {
     QueryContext context;
-    QueryArguments arguments = query_arguments(&context, flags);
+    QueryArguments arguments = query_arguments(&context, scene, flags);
     struct RTCRay stream[LB_STREAM];
-    uint32_t excluded[LB_STREAM];
-    context.excluded = excluded;
+    context.collector = collector;
     for (size_t first = 0; first < count; first += LB_STREAM) {
         const unsigned length = count - first < LB_STREAM ? (unsigned)(count - first) : LB_STREAM;
         for (unsigned i = 0; i < length; i++)
             stream[i] = embree_ray(&rays[first + i], i);
-        for (unsigned i = 0; scene->filtered && i < length; i++)
-            excluded[i] = rays[first + i].excluded;
+        context.rays = &rays[first];
         rtcOccluded1M(scene->handle, arguments, stream, length, sizeof stream[0]);
         for (unsigned i = 0; i < length; i++)
             answers[first + i] = answer(stream[i].tfar);
@@ -223,28 +226,25 @@ static inline void load_lanes(Lanes to, const LbRay *rays, unsigned count)
  */
 #define DEFINE_OCCLUDED(WIDTH)                                                                                         \
     static void occluded_##WIDTH(const LbScene *scene, const LbRay *rays, size_t count, uint32_t flags,                \
-                                 uint8_t *answers)                                                                     \
+                                 Collector *collector, uint8_t *answers)                                               \
     {                                                                                                                  \
         QueryContext context;                                                                                          \
-        QueryArguments arguments = query_arguments(&context, flags);                                                   \
+        QueryArguments arguments = query_arguments(&context, scene, flags);                                            \
         struct RTCRay##WIDTH packet;                                                                                   \
-        uint32_t excluded[WIDTH];                                                                                      \
         alignas(4 * WIDTH) int valid[WIDTH];                                                                           \
         const Lanes lanes = { packet.org_x, packet.org_y, packet.org_z, packet.tnear,                                  \
                               packet.dir_x, packet.dir_y, packet.dir_z, packet.tfar };                                 \
         memset(&packet, 0, sizeof packet);                                                                             \
-        context.excluded = excluded;                                                                                   \
+        context.collector = collector;                                                                                 \
         for (unsigned lane = 0; lane < WIDTH; lane++) {                                                                \
             packet.mask[lane] = 0xFFFFFFFFu;                                                                           \
             packet.id[lane] = lane;                                                                                    \
-            excluded[lane] = LB_NO_TRIANGLE;                                                                           \
             valid[lane] = -1;                                                                                          \
         }                                                                                                              \
         for (size_t first = 0; first < count; first += WIDTH) {                                                        \
             const unsigned active = count - first < WIDTH ? (unsigned)(count - first) : WIDTH;                         \
             load_lanes(lanes, &rays[first], active);                                                                   \
-            for (unsigned lane = 0; scene->filtered && lane < active; lane++)                                          \
-                excluded[lane] = rays[first + lane].excluded;                                                          \
+            context.rays = &rays[first];                                                                               \
             for (unsigned lane = active; lane < WIDTH; lane++)                                                         \
                 valid[lane] = 0;                                                                                       \
             OCCLUDED_N(WIDTH, valid, scene->handle, &packet, &arguments);                                              \
@@ -257,20 +257,20 @@ DEFINE_OCCLUDED(4)
 DEFINE_OCCLUDED(8)
 DEFINE_OCCLUDED(16)
 
-uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
-                           uint8_t *answers, LbError *error)
+/* `collector` may be null. */
+static void ask(Call call, const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
+                Collector *collector, uint8_t *answers)
 {
-    Call call = lb_begin_call(error);
     lb_choose_denormals(flags & LB_QUERY_FLUSH_DENORMALS);
     switch (grouping) {
-    case LB_PACKET_1: occluded_1(scene, rays, count, flags, answers); break;
-    case LB_PACKET_4: occluded_4(scene, rays, count, flags, answers); break;
-    case LB_PACKET_8: occluded_8(scene, rays, count, flags, answers); break;
-    case LB_PACKET_16: occluded_16(scene, rays, count, flags, answers); break;
+    case LB_PACKET_1: occluded_1(scene, rays, count, flags, collector, answers); break;
+    case LB_PACKET_4: occluded_4(scene, rays, count, flags, collector, answers); break;
+    case LB_PACKET_8: occluded_8(scene, rays, count, flags, collector, answers); break;
+    case LB_PACKET_16: occluded_16(scene, rays, count, flags, collector, answers); break;
     case LB_STREAM:
 #if LB_EMBREE_MAJOR == 3
         if (lb_has_streams(scene->device)) {
-            occluded_stream(scene, rays, count, flags, answers);
+            occluded_stream(scene, rays, count, flags, collector, answers);
             break;
         }
 #endif
@@ -278,5 +278,22 @@ uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count
         break;
     default: lb_fail(call, "packets have 1, 4, 8 or 16 rays");
     }
+}
+
+uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
+                           uint8_t *answers, LbError *error)
+{
+    Call call = lb_begin_call(error);
+    ask(call, scene, rays, count, grouping, flags, NULL, answers);
+    return lb_end_call(call, scene->device);
+}
+
+uint32_t lb_scene_crossed(const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
+                          uint8_t *answers, LbCrossing *crossings, size_t capacity, size_t *found, LbError *error)
+{
+    Call call = lb_begin_call(error);
+    Collector collector = { rays, crossings, capacity, 0 };
+    ask(call, scene, rays, count, grouping, flags, &collector, answers);
+    *found = collector.found;
     return lb_end_call(call, scene->device);
 }

@@ -122,7 +122,7 @@ static bool on_memory(void *user, ssize_t bytes, bool post)
     return true;
 }
 
-static uint32_t property(const LbDevice *device, enum RTCDeviceProperty name)
+uint32_t lb_property(const LbDevice *device, enum RTCDeviceProperty name)
 {
     return (uint32_t)rtcGetDeviceProperty(device->handle, name);
 }
@@ -130,7 +130,7 @@ static uint32_t property(const LbDevice *device, enum RTCDeviceProperty name)
 bool lb_has_streams(const LbDevice *device)
 {
 #if LB_EMBREE_MAJOR == 3
-    return property(device, RTC_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED);
+    return lb_property(device, RTC_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED);
 #else
     (void)device;
     return false;
@@ -140,13 +140,13 @@ bool lb_has_streams(const LbDevice *device)
 /* What would make the answers those of another Embree than the one this shim was written for. */
 static void check_device(Call call, const LbDevice *device)
 {
-    uint32_t major = property(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
+    uint32_t major = lb_property(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
     if (major != RTC_VERSION_MAJOR && !call.error->text[0])
         write_error(call.error, "compiled against headers of version %d but version %u was loaded", RTC_VERSION_MAJOR,
                     (unsigned)major);
-    if (property(device, RTC_DEVICE_PROPERTY_BACKFACE_CULLING_ENABLED))
+    if (lb_property(device, RTC_DEVICE_PROPERTY_BACKFACE_CULLING_ENABLED))
         lb_fail(call, "this Embree culls back faces, so it cannot tell what casts a shadow");
-    if (!property(device, RTC_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED))
+    if (!lb_property(device, RTC_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED))
         lb_fail(call, "this Embree was built without triangles");
 }
 
@@ -191,12 +191,12 @@ uint32_t lb_device_free(LbDevice *device, LbError *error)
 uint32_t lb_device_info(const LbDevice *device, LbDeviceInfo *info, LbError *error)
 {
     Call call = lb_begin_call(error);
-    info->version_major = property(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
-    info->version_minor = property(device, RTC_DEVICE_PROPERTY_VERSION_MINOR);
-    info->version_patch = property(device, RTC_DEVICE_PROPERTY_VERSION_PATCH);
-    info->native_packet_4 = property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED);
-    info->native_packet_8 = property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED);
-    info->native_packet_16 = property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
+    info->version_major = lb_property(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR);
+    info->version_minor = lb_property(device, RTC_DEVICE_PROPERTY_VERSION_MINOR);
+    info->version_patch = lb_property(device, RTC_DEVICE_PROPERTY_VERSION_PATCH);
+    info->native_packet_4 = lb_property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED);
+    info->native_packet_8 = lb_property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED);
+    info->native_packet_16 = lb_property(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
     info->streams = lb_has_streams(device);
     /* Tried, because the answer is the platform's and lb_end_call undoes it. */
     info->flushes_denormals = lb_choose_denormals(false);
@@ -222,34 +222,43 @@ static enum RTCBuildQuality build_quality(uint32_t quality)
 }
 
 /* Null if it cannot be made; the caller owns it. */
-static RTCGeometry new_mesh(Call call, LbDevice *device, const float *vertices, size_t vertex_count,
-                            const uint32_t *triangles, size_t triangle_count, uint32_t quality, LbScene *scene)
+static RTCGeometry new_mesh(Call call, LbScene *scene)
 {
+    const LbDevice *device = scene->device;
+    const LbParts *parts = &scene->parts;
     RTCGeometry mesh = rtcNewGeometry(device->handle, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (!mesh) {
         lb_fail(call, "no geometry");
         return NULL;
     }
-    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, 3 * sizeof(float),
-                               vertex_count);
-    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles, 0, 3 * sizeof(uint32_t),
-                               triangle_count);
-    /* Low quality builds a tree a mesh, by the mesh's own setting; the others follow the scene's. */
-    rtcSetGeometryBuildQuality(mesh, build_quality(quality));
-    /* The default of Embree 3 is all bits, that of Embree 4 is the lowest. */
-    rtcSetGeometryMask(mesh, 0xFFFFFFFFu);
-    if (scene->filtered || scene->has_holes) {
-        if (!property(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, parts->vertices, 0,
+                               3 * sizeof(float), parts->vertex_count);
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, parts->triangles, 0,
+                               3 * sizeof(uint32_t), parts->triangle_count);
+    if (scene->filtered || scene->has_holes || parts->transparent) {
+        if (!lb_property(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
             lb_fail(call, "this Embree was built without filter functions, so no hit can be rejected");
         rtcSetGeometryUserData(mesh, scene);
         rtcSetGeometryOccludedFilterFunction(mesh, lb_reject_hits);
     }
-    rtcCommitGeometry(mesh);
     return mesh;
 }
 
-uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_count, const uint32_t *triangles,
-                      size_t triangle_count, const LbHoles *holes, uint32_t quality, uint32_t flags, LbScene **scene_out,
+/* Puts a geometry, which may be null, into its scene and gives up the caller's part in it. */
+static void attach(LbScene *scene, RTCGeometry geometry, uint32_t quality)
+{
+    if (!geometry)
+        return;
+    /* Low quality builds a tree a geometry, by the geometry's own setting; the others follow the scene's. */
+    rtcSetGeometryBuildQuality(geometry, build_quality(quality));
+    /* The default of Embree 3 is all bits, that of Embree 4 is the lowest. */
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFu);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene->handle, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+uint32_t lb_scene_new(LbDevice *device, const LbParts *parts, uint32_t quality, uint32_t flags, LbScene **scene_out,
                       LbError *error)
 {
     Call call = lb_begin_call(error);
@@ -261,9 +270,10 @@ uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_cou
     }
     scene->device = device;
     scene->filtered = flags & LB_SCENE_FILTERED;
-    scene->has_holes = holes != NULL;
-    if (holes)
-        scene->holes = *holes;
+    scene->parts = *parts;
+    scene->has_holes = parts->holes != NULL;
+    if (parts->holes)
+        scene->holes = *parts->holes;
     scene->handle = rtcNewScene(device->handle);
     if (!scene->handle) {
         lb_fail(call, "no scene");
@@ -273,14 +283,14 @@ uint32_t lb_scene_new(LbDevice *device, const float *vertices, size_t vertex_cou
     rtcSetSceneBuildQuality(scene->handle, build_quality(quality));
     if (flags & LB_SCENE_ROBUST)
         rtcSetSceneFlags(scene->handle, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry mesh = new_mesh(call, device, vertices, vertex_count, triangles, triangle_count, quality, scene);
-    if (mesh) {
-        rtcAttachGeometry(scene->handle, mesh);
-        rtcReleaseGeometry(mesh);
-        /* A scene over a mesh that Embree has refused must not be built. */
-        if (!call.error->text[0])
-            rtcCommitScene(scene->handle);
-    }
+    /* A scene of nothing is one of a mesh without triangles. */
+    if (parts->triangle_count || !parts->curved_count)
+        attach(scene, new_mesh(call, scene), quality);
+    if (parts->curved_count)
+        attach(scene, lb_new_curved(call, scene), quality);
+    /* A scene over a geometry that Embree has refused must not be built. */
+    if (!call.error->text[0])
+        rtcCommitScene(scene->handle);
     uint32_t status = lb_end_call(call, device);
     if (status != LB_OK) {
         LbError ignored;

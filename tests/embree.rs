@@ -3,14 +3,20 @@
 
 use lightbuffer::Error;
 use lightbuffer::embree::{
-    BuildQuality, CheckedRays, Denormals, Device, EmbreeMode, Grouping, QueryOptions, Receiver, Robustness,
-    SceneOptions, ShadowRay, TriangleScene,
+    BuildQuality, CheckedRays, Denormals, Device, EmbreeMode, EmbreeScene, Grouping, QueryOptions, Receiver,
+    Robustness, SceneOptions, ShadowRay,
 };
 
 use std::sync::LazyLock;
 
+#[path = "embree/curved.rs"]
+mod curved;
 #[path = "embree/meshes.rs"]
 mod meshes;
+#[path = "embree/shapes.rs"]
+mod shapes;
+#[path = "embree/transparent.rs"]
+mod transparent;
 use meshes::{bumpy_ball, segment, soup};
 
 /// The usual way to ask.
@@ -36,7 +42,7 @@ fn options(receiver: Receiver) -> SceneOptions {
     SceneOptions { robustness: Robustness::Robust, quality: BuildQuality::Medium, receiver }
 }
 
-fn ask(scene: &TriangleScene, rays: &[ShadowRay], query: QueryOptions) -> Vec<bool> {
+fn ask(scene: &EmbreeScene, rays: &[ShadowRay], query: QueryOptions) -> Vec<bool> {
     // Right answers are written over what is already there: start from every other one.
     let mut answers: Vec<bool> = (0..rays.len()).map(|i| i % 2 == 0).collect();
     scene.occluded(rays, query, &mut answers).unwrap();
@@ -44,7 +50,7 @@ fn ask(scene: &TriangleScene, rays: &[ShadowRay], query: QueryOptions) -> Vec<bo
 }
 
 /// Every ray must get its expected answer in every way to ask.
-fn assert_answers(scene: &TriangleScene, rays: &[ShadowRay], expected: &[bool], what: &str) {
+fn assert_answers(scene: &EmbreeScene, rays: &[ShadowRay], expected: &[bool], what: &str) {
     assert_eq!(rays.len(), expected.len());
     for query in QUERIES.iter().copied() {
         for (i, answer) in ask(scene, rays, query).into_iter().enumerate() {
@@ -76,7 +82,7 @@ fn one_triangle_blocks_what_crosses_it_in_either_winding() {
     let (rays, expected): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
     for options in all_options() {
         for winding in [[0, 1, 2], [0, 2, 1]] {
-            let scene = TriangleScene::new(&device, &CORNER, &[winding], options).unwrap();
+            let scene = EmbreeScene::new(&device, &CORNER, &[winding], options).unwrap();
             assert_answers(&scene, &rays, &expected, &format!("{options:?}, {winding:?}"));
         }
     }
@@ -102,7 +108,7 @@ fn both_ends_of_the_segment_count() {
     ];
     let (rays, expected): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
+        let scene = EmbreeScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
         assert_answers(&scene, &rays, &expected, &format!("{options:?}"));
     }
 }
@@ -119,14 +125,14 @@ fn only_a_scene_that_excludes_receivers_reads_the_excluded_triangle() {
     let cases = [
         (down(-0.5, 0), false),
         (down(-0.5, 1), true),
-        (down(-0.5, ShadowRay::NO_TRIANGLE), true),
+        (down(-0.5, ShadowRay::NO_PRIMITIVE), true),
         (down(-1.5, 0), true),
         (down(-1.5, 1), true),
         (down(-2.5, 2), true),
     ];
     let (rays, expected): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &vertices, &triangles, options).unwrap();
+        let scene = EmbreeScene::new(&device, &vertices, &triangles, options).unwrap();
         let what = format!("{options:?}");
         match options.receiver {
             Receiver::Excluded => assert_answers(&scene, &rays, &expected, &what),
@@ -141,7 +147,7 @@ fn a_ray_that_starts_on_its_excluded_receiver_leaves_it() {
     let device = Device::new(1).unwrap();
     let away = ShadowRay { excluded: 0, ..segment([0.5, 0.5, 0.0], [0.5, 0.75, 1.0]) };
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
+        let scene = EmbreeScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
         let blocked = options.receiver == Receiver::Included && options.robustness == Robustness::Robust;
         assert_answers(&scene, &[away; 18], &[blocked; 18], &format!("{options:?}"));
     }
@@ -165,7 +171,7 @@ fn each_lane_of_a_packet_has_its_own_excluded_triangle() {
             .collect();
         let expected: Vec<bool> = (0..count).map(|i| !excludes_its_own(i)).collect();
         for options in all_options().into_iter().filter(|options| options.receiver == Receiver::Excluded) {
-            let scene = TriangleScene::new(&device, &vertices, &triangles, options).unwrap();
+            let scene = EmbreeScene::new(&device, &vertices, &triangles, options).unwrap();
             assert_answers(&scene, &rays, &expected, &format!("{options:?}, stride {stride}"));
         }
     }
@@ -179,7 +185,7 @@ fn every_mode_answers_as_arithmetic_does_with_any_tail() {
     let blocked = soup.blocked.iter().filter(|&&blocked| blocked).count();
     assert!((100..600).contains(&blocked) && differing > 20, "{blocked} blocked, {differing} differing");
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &soup.vertices, &soup.triangles, options).unwrap();
+        let scene = EmbreeScene::new(&device, &soup.vertices, &soup.triangles, options).unwrap();
         let expected = match options.receiver {
             Receiver::Included => &soup.blocked,
             Receiver::Excluded => &soup.blocked_without_excluded,
@@ -216,7 +222,7 @@ fn robust_scenes_have_no_holes_along_edges() {
     };
     let rays: Vec<ShadowRay> = aim([0.0; 3]).chain(aim([0.1, 0.23, -0.37])).collect();
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &vertices, &triangles, options).unwrap();
+        let scene = EmbreeScene::new(&device, &vertices, &triangles, options).unwrap();
         match options.robustness {
             Robustness::Robust => {
                 assert_answers(&scene, &rays, &vec![true; rays.len()], &format!("{options:?}"));
@@ -234,7 +240,7 @@ fn many_threads_ask_one_scene_at_once() {
     let device = Device::new(2).unwrap();
     let soup = soup(60, 320);
     let scene =
-        TriangleScene::new(&device, &soup.vertices, &soup.triangles, options(Receiver::Excluded)).unwrap();
+        EmbreeScene::new(&device, &soup.vertices, &soup.triangles, options(Receiver::Excluded)).unwrap();
     // The scene keeps the device.
     drop(device);
     std::thread::scope(|threads| {
@@ -260,8 +266,7 @@ fn scenes_are_built_on_one_device_by_several_threads() {
             .map(|_| {
                 threads.spawn(|| {
                     let options = options(Receiver::Included);
-                    let scene =
-                        TriangleScene::new(&device, &soup.vertices, &soup.triangles, options).unwrap();
+                    let scene = EmbreeScene::new(&device, &soup.vertices, &soup.triangles, options).unwrap();
                     assert_answers(&scene, &soup.rays, &soup.blocked, "built by a thread");
                     scene.bytes()
                 })
@@ -278,7 +283,7 @@ fn a_scene_without_triangles_blocks_nothing() {
     let device = Device::new(1).unwrap();
     let rays = [segment([0.5, 0.5, 1.0], [0.5, 0.5, -1.0]); 17];
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &[], &[], options).unwrap();
+        let scene = EmbreeScene::new(&device, &[], &[], options).unwrap();
         assert_answers(&scene, &rays, &[false; 17], "empty");
     }
 }
@@ -290,7 +295,7 @@ fn nothing_blocks_an_empty_segment() {
     let vertices = [[-1.0, -1.0, -1.0], [2.0, -1.0, 0.0], [-1.0, 2.0, 2.0]];
     let crossing = segment([0.0; 3], [0.0, 0.0, 2.0]);
     for options in all_options() {
-        let scene = TriangleScene::new(&device, &vertices, &[[0, 1, 2]], options).unwrap();
+        let scene = EmbreeScene::new(&device, &vertices, &[[0, 1, 2]], options).unwrap();
         let rays: Vec<_> = (0..37).map(|i| [crossing, ShadowRay::EMPTY][i % 2]).collect();
         let expected: Vec<_> = (0..37).map(|i| i % 2 == 0).collect();
         assert_answers(&scene, &rays, &expected, &format!("{options:?}"));
@@ -302,8 +307,8 @@ fn memory_grows_with_the_scene() {
     let device = Device::new(2).unwrap();
     let bytes = |count| {
         let soup = soup(count, 0);
-        let scene = TriangleScene::new(&device, &soup.vertices, &soup.triangles, options(Receiver::Included))
-            .unwrap();
+        let scene =
+            EmbreeScene::new(&device, &soup.vertices, &soup.triangles, options(Receiver::Included)).unwrap();
         let buffers = size_of_val(&soup.vertices[..]) + size_of_val(&soup.triangles[..]);
         // Embree's leaves alone take more than an index a triangle.
         assert!(scene.bytes() > buffers + 4 * count as usize, "{} for {count} triangles", scene.bytes());
@@ -320,7 +325,7 @@ fn build_quality_reaches_embree() {
     let (vertices, triangles) = bumpy_ball(100);
     let [low, medium, high] = [BuildQuality::Low, BuildQuality::Medium, BuildQuality::High].map(|quality| {
         let options = SceneOptions { robustness: Robustness::Fast, quality, receiver: Receiver::Included };
-        TriangleScene::new(&device, &vertices, &triangles, options).unwrap().bytes()
+        EmbreeScene::new(&device, &vertices, &triangles, options).unwrap().bytes()
     });
     assert!(low > medium && medium != high && high != low, "{low}, {medium}, {high}");
 }
@@ -342,7 +347,7 @@ fn what_embree_would_misread_is_refused() {
     }
     let device = Device::new(1).unwrap();
     let build = |vertices: &[[f32; 3]], triangles: &[[u32; 3]]| {
-        TriangleScene::new(&device, vertices, triangles, options(Receiver::Excluded))
+        EmbreeScene::new(&device, vertices, triangles, options(Receiver::Excluded))
     };
     refused(build(&CORNER, &[[0, 1, 2], [0, 1, 3]]), "triangle 1 is [0, 1, 3], but there are 3 vertices");
     refused(build(&[], &[[0, 0, 0]]), "triangle 0");
@@ -370,7 +375,7 @@ fn what_embree_would_misread_is_refused() {
             rays[18] = bad;
             refused(scene.occluded(&rays, query, &mut answers), "ray 18");
             // Which triangles there are is for the scene to say; everything else is seen before.
-            if bad.excluded == ShadowRay::NO_TRIANGLE {
+            if bad.excluded == ShadowRay::NO_PRIMITIVE {
                 refused(CheckedRays::new(&rays), "ray 18");
             }
         }
@@ -385,7 +390,7 @@ fn what_embree_would_misread_is_refused() {
 #[test]
 fn streams_are_there_or_refused() {
     let device = Device::new(1).unwrap();
-    let scene = TriangleScene::new(&device, &CORNER, &[[0, 1, 2]], options(Receiver::Included)).unwrap();
+    let scene = EmbreeScene::new(&device, &CORNER, &[[0, 1, 2]], options(Receiver::Included)).unwrap();
     let rays = [segment([0.5, 0.5, 1.0], [0.5, 0.5, -1.0]); 5];
     let mode =
         EmbreeMode { query: QueryOptions { grouping: Grouping::Stream, ..QUERY }, ..EmbreeMode::RIVAL };
@@ -416,7 +421,7 @@ fn flushing_denormals_reaches_embree_in_every_grouping() {
     assert!(above.origin[2].is_subnormal());
     for quality in [BuildQuality::Low, BuildQuality::Medium, BuildQuality::High] {
         let options = SceneOptions { quality, ..EmbreeMode::RIVAL.scene };
-        let scene = TriangleScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
+        let scene = EmbreeScene::new(&device, &CORNER, &[[0, 1, 2]], options).unwrap();
         for query in QUERIES.iter().copied() {
             let expected = query.denormals == Denormals::Kept || !device.flushes_denormals();
             assert_eq!(ask(&scene, &[above; 21], query), [expected; 21], "{query:?}");
@@ -430,7 +435,7 @@ fn the_largest_coordinates_still_block() {
     let device = Device::new(1).unwrap();
     let far = 1.8e18;
     let vertices = [[-far, -far, 0.0], [far, -far, 0.0], [0.0, far, 0.0]];
-    let scene = TriangleScene::new(&device, &vertices, &[[0, 1, 2]], options(Receiver::Included)).unwrap();
+    let scene = EmbreeScene::new(&device, &vertices, &[[0, 1, 2]], options(Receiver::Included)).unwrap();
     assert_answers(&scene, &[segment([0.0, 0.0, 1.0], [0.0, 0.0, -1.0])], &[true], "far corners");
 }
 

@@ -79,8 +79,8 @@ plant last-record-dropped $buffer/cell.rs \
     what_lies_behind_a_cover_is_cut_off_and_what_begins_on_it_stays \
     every_exact_tester_is_right_in_every_case_at_every_resolution
 
-plant depth-the-wrong-way $buffer/mod.rs \
-    'f64::from(record.near) >= at.z_high' 'f64::from(record.near) <= at.z_high' \
+plant depth-the-wrong-way $buffer/walk.rs \
+    'f64::from(record.near) >= z_high' 'f64::from(record.near) <= z_high' \
     every_exact_tester_is_right_in_every_case_at_every_resolution \
     all_exact_testers_agree_with_the_definition_on_random_scenes
 
@@ -118,8 +118,12 @@ plant receivers-ignored-in-a-cell $buffer/cell.rs \
     what_only_receives_keeps_what_can_shadow_it_and_has_no_record \
     every_exact_tester_is_right_in_every_case_at_every_resolution
 
-plant base-surface-rule-dropped $buffer/mod.rs \
-    'if base == Some(primitive) || harmless' 'if harmless' \
+plant group-ends-the-walk $buffer/walk.rs \
+    'Walk::Behind | Walk::Through => {}' 'Walk::Through => {}' \
+    what_follows_a_group_is_looked_at_when_a_member_lies_behind_the_point
+
+plant base-surface-rule-dropped $buffer/walk.rs \
+    'if asked.base == Some(primitive) || asked' 'if asked' \
     the_base_surface_is_not_tested
 
 plant depth-not-rounded-down $buffer/build.rs \

@@ -1,14 +1,15 @@
-//! Scenes that are not part of this repository: a scanned mesh, a modelled one, a whole glTF scene, and two of
-//! the Standard Procedural Databases.
+//! Scenes that are not part of this repository: a scanned mesh, a modelled one, a whole glTF scene, and the
+//! Standard Procedural Databases.
 //!
 //! `make test-scenes SCENES=folder` runs these tests; the folder holds `meshes/stanford-bunny.obj`,
-//! `meshes/teapot.obj`, `meshes/balloon/scene.gltf`, `spd/gears.nff` and `spd/tetra.nff`. They compare answers query by query, never totals.
+//! `meshes/teapot.obj`, `meshes/balloon/scene.gltf` and the seven of `spd/`. They compare answers query by query, never totals.
 
-use lightbuffer::measure::{answer, timed};
-use lightbuffer::scene::{Camera, Framing, ImageSize, Scene, formats, frame};
-use lightbuffer::shadow::facing::Sides;
+use lightbuffer::geometry::curved::Shape;
+use lightbuffer::measure::{Question, answer, timed};
+use lightbuffer::scene::{Camera, CurvedPrimitive, Dropped, Framing, ImageSize, Scene, formats, frame};
+use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::{BuildInput, Resolution, SceneIndex, find};
-use lightbuffer::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
+use lightbuffer::verdict::{LightVerdict, Progress, check_arbiter, judge};
 use lightbuffer::visibility::{VisibleSurfaces, classical, t_buffer};
 use std::path::PathBuf;
 
@@ -95,9 +96,8 @@ impl View {
     fn queries(&self, size: ImageSize) -> Vec<Queries> {
         let hits = t_buffer::first_hits(&self.scene, &self.camera, size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
-        let eye = Sides::of(&self.scene, self.camera.origin);
         let lights = self.scene.lights.iter();
-        lights.map(|light| Queries::new(&self.scene, &visible, light, &eye)).collect()
+        lights.map(|light| Queries::new(&self.scene, &visible, light)).collect()
     }
 
     fn input(&self, light: usize, resolution: Resolution) -> BuildInput<'_> {
@@ -177,7 +177,7 @@ fn compare_masks(subject: &Subject) {
             let queries = view.queries(size(160, 90));
             let mask = |(light, queries): (usize, &Queries)| {
                 let tester = (light_buffer.build)(&view.input(light, resolution)).unwrap();
-                answer(tester.as_ref(), &queries.points, &|_| ()).unwrap().occluded
+                answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| ()).unwrap().occluded
             };
             queries.iter().enumerate().map(mask).collect()
         })
@@ -252,6 +252,31 @@ fn compare_with_what_was_published(subject: &Subject, polygons: usize, lights: u
 fn the_gears_and_the_tetrahedra_are_whole() {
     compare_with_what_was_published(&GEARS, 9345, 5);
     compare_with_what_was_published(&TETRA, 4096, 1);
+}
+
+#[test]
+fn every_procedural_database_is_whole() {
+    // Polygons, spheres, cylinders and cones as published; lights; and what is transparent.
+    for (name, polygons, spheres, cones, lights, transparent) in [
+        ("balls", 1, 7381, 0, 3, false),
+        ("gears", 9345, 0, 0, 5, true),
+        ("mount", 8192, 4, 0, 1, true),
+        ("rings", 1, 4200, 4200, 3, false),
+        ("teapot", 9264, 0, 0, 2, false),
+        ("tetra", 4096, 0, 0, 1, false),
+        ("tree", 1, 4095, 4095, 7, false),
+    ] {
+        let scene = formats::load(&path(&format!("spd/{name}.nff"))).unwrap();
+        let is_sphere = |primitive: &&CurvedPrimitive| matches!(primitive.shape, Shape::Sphere(_));
+        let found = scene.curved.iter().filter(is_sphere).count();
+        let found_polygons: u32 = scene.objects.iter().map(|object| object.polygons).sum();
+        assert_eq!((found_polygons, found, scene.curved.len() - found), (polygons, spheres, cones), "{name}");
+        assert_eq!((scene.lights.len(), scene.cameras[0].size), (lights, Some(size(512, 512))), "{name}");
+        assert_eq!(scene.has_transparent_casters(), transparent, "{name}");
+        assert_eq!(scene.background, [0.078, 0.361, 0.753], "{name}");
+        println!("{name}: {:?}, {:?}", scene.dropped, scene.warnings);
+        assert_eq!(scene.dropped, Dropped::default(), "{name}");
+    }
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `lightbuffer info`: what a scene holds and what it calls for.
 
+use super::counts::{Counts, shapes_in_words};
 use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use super::view::View;
@@ -34,18 +35,21 @@ struct Facts {
     scene: String,
     hash: String,
     objects: usize,
-    primitives: usize,
+    #[serde(flatten)]
+    counts: Counts,
     vertices: usize,
     casting: usize,
     duplicates: usize,
     degenerate: usize,
     non_finite: usize,
+    dropped_curved: usize,
     convex_solids: usize,
     convex_sheets: usize,
     closed_solids: usize,
     not_solid: NotSolid,
-    low: [f32; 3],
-    high: [f32; 3],
+    /// None where something in the scene has no end.
+    low: Option<[f32; 3]>,
+    high: Option<[f32; 3]>,
     lights: Vec<LightFacts>,
     cameras: Vec<String>,
     added: Vec<String>,
@@ -101,17 +105,18 @@ fn facts(view: &View) -> Facts {
     };
     let solids = index.solids(scene);
     let refused = |why: Refusal| solids.refused.get(&why).copied().unwrap_or(0);
-    let (low, high) = scene.bounds().expect("a scene with triangles");
+    let bounds = scene.bounds();
     Facts {
         scene: scene.name.clone(),
         hash: format!("{:016x}", scene.hash()),
         objects: scene.objects.len(),
-        primitives: scene.triangles.len(),
+        counts: Counts::of(scene),
         vertices: scene.vertices.len(),
         casting: index.casting.len(),
         duplicates: scene.triangles.len() - index.casting.len(),
         degenerate: scene.dropped.degenerate,
         non_finite: scene.dropped.non_finite,
+        dropped_curved: scene.dropped.curved,
         convex_solids: surfaces(Surface::Closed),
         convex_sheets: surfaces(Surface::Open),
         closed_solids: solids.count(),
@@ -121,8 +126,8 @@ fn facts(view: &View) -> Facts {
             crossing: refused(Refusal::Crossing),
             too_large: refused(Refusal::TooLarge),
         },
-        low: low.to_array(),
-        high: high.to_array(),
+        low: bounds.map(|(low, _)| low.to_array()),
+        high: bounds.map(|(_, high)| high.to_array()),
         lights: scene.lights.iter().map(light_facts).collect(),
         cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
         added: view.added.clone(),
@@ -156,18 +161,27 @@ fn text(facts: &Facts) -> String {
     let _ = writeln!(out, "{} (hash {})", facts.scene, facts.hash);
     let _ = writeln!(
         out,
-        "  {} objects, {} triangles, {} vertices",
+        "  {} objects, {} triangles, {} vertices; {} polygons",
         count(facts.objects),
-        count(facts.primitives),
-        count(facts.vertices)
+        count(facts.counts.triangles),
+        count(facts.vertices),
+        count(facts.counts.polygons)
     );
+    if !facts.counts.curved.is_empty() {
+        let _ = writeln!(out, "  curved: {}", shapes_in_words(&facts.counts.curved));
+    }
+    let (transparent, mirrors) = (facts.counts.transparent_objects, facts.counts.mirror_objects);
+    if transparent + mirrors > 0 {
+        let _ = writeln!(out, "  {} transparent objects, {} mirrors", count(transparent), count(mirrors));
+    }
     let _ = writeln!(
         out,
-        "  cast: {} triangles ({} exact duplicates merged); dropped: {} of zero area, {} not finite",
+        "  cast: {} triangles ({} exact duplicates merged); dropped: {} of zero area, {} not finite, {} curved",
         count(facts.casting),
         count(facts.duplicates),
         count(facts.degenerate),
-        count(facts.non_finite)
+        count(facts.non_finite),
+        count(facts.dropped_curved)
     );
     let _ = writeln!(
         out,
@@ -185,7 +199,10 @@ fn text(facts: &Facts) -> String {
         count(why.crossing),
         count(why.too_large)
     );
-    let _ = writeln!(out, "  bounds: {:?} to {:?}", facts.low, facts.high);
+    match (facts.low, facts.high) {
+        (Some(low), Some(high)) => drop(writeln!(out, "  bounds: {low:?} to {high:?}")),
+        _ => drop(writeln!(out, "  bounds: none")),
+    }
     for light in &facts.lights {
         let place = match (light.position, light.towards) {
             (Some(position), _) => format!("at {position:?}"),

@@ -3,6 +3,7 @@
 //! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
 //! right, 1 done and a native answer is wrong, 2 usage or input error.
 
+mod counts;
 mod generate;
 mod info;
 mod options;

@@ -4,7 +4,8 @@ use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
-use crate::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex};
+use crate::shading::USUAL_DEPTH;
+use crate::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, VolumeThreshold};
 use clap::Args;
 use glam::Vec3;
 use std::path::PathBuf;
@@ -73,6 +74,19 @@ pub fn parse_light_argument(text: &str) -> std::result::Result<LightArgument, St
 }
 
 /// What is done with it.
+/// How far rays are followed.
+#[derive(Debug, Args)]
+pub struct TreeOptions {
+    /// Most rays one behind the other in mirrors and glass, that from the camera included
+    #[arg(
+        long,
+        value_name = "RAYS",
+        default_value_t = USUAL_DEPTH,
+        value_parser = clap::value_parser!(u32).range(1..=64)
+    )]
+    pub depth: u32,
+}
+
 #[derive(Debug, Args)]
 pub struct RunOptions {
     /// Cells along an edge of the light buffer's cube: 1 to 4096, or auto
@@ -84,6 +98,10 @@ pub struct RunOptions {
     /// no triangles cross. No answer depends on it
     #[arg(long, value_name = "WHAT", default_value = "off", value_parser = parse_culling)]
     pub cull: Culling,
+    /// Put the polygons of one object in a cell of the light buffer behind a bounding volume if they are more
+    /// than this; the 1986 paper says 6. No answer depends on it [default: never]
+    #[arg(long, value_name = "N")]
+    pub volume_threshold: Option<u32>,
     /// Share of a segment that Embree leaves out at both ends, in [0, 0.5)
     #[arg(long, value_name = "E", default_value_t = 1e-4, value_parser = parse_epsilon)]
     pub embree_epsilon: f32,
@@ -126,6 +144,7 @@ impl RunOptions {
         BuildInput {
             resolution: self.resolution,
             culling: self.cull,
+            bounding_volumes: self.volume_threshold.map_or(VolumeThreshold::Off, VolumeThreshold::MoreThan),
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
             memory: self.memory_limit(),
             ..BuildInput::new(scene, index, light)

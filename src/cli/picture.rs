@@ -5,8 +5,11 @@ use crate::error::{Error, Result};
 use crate::film::{CategoryMap, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
-use crate::shading::shade_picture;
-use crate::verdict::{LightVerdict, Queries, TesterRun};
+use crate::scene::Scene;
+use crate::shading::{RayForest, shade_picture};
+use crate::shadow::Queries;
+use crate::verdict::{LightVerdict, TesterRun};
+use crate::visibility::VisibleSurfaces;
 
 /// A preview and the word for it in its file name.
 pub struct Preview {
@@ -21,25 +24,30 @@ pub struct Preview {
 /// # Errors
 /// Never for the points of a view.
 pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> Result<ImagePlanes> {
-    let mut point_of_pixel = vec![u32::MAX; seen.hits.size.pixels()];
-    for (i, &pixel) in seen.visible.pixels.iter().enumerate() {
-        point_of_pixel[pixel as usize] = i as u32;
+    let arriving: Vec<_> =
+        shadows.iter().map(|(queries, run)| arriving(&view.scene, &seen.forest, queries, run)).collect();
+    let shaded = shade_picture(&view.scene, &view.camera, &view.scene.lights, &seen.forest, &arriving);
+    picture_planes(seen.hits.size, &view.scene, &seen.forest.nodes, &shaded)
+}
+
+/// The share of a light that arrives at each point of the image, where it faces the light or lets it through.
+fn arriving(scene: &Scene, forest: &RayForest, queries: &Queries, run: &TesterRun) -> Vec<[f32; 3]> {
+    let mut shares = vec![[0.0; 3]; forest.nodes.points.len()];
+    for (i, &node) in queries.nodes.iter().enumerate().filter(|&(i, _)| !run.occluded[i]) {
+        shares[node as usize] = run.crossings.as_ref().map_or([1.0; 3], |c| c.transmittance(scene, i));
     }
-    let sees: Vec<Vec<bool>> = shadows
-        .iter()
-        .map(|(queries, run)| {
-            let mut sees = vec![false; seen.visible.points.len()];
-            for (&pixel, &occluded) in queries.pixels.iter().zip(&run.occluded) {
-                sees[point_of_pixel[pixel as usize] as usize] = !occluded;
-            }
-            for &pixel in &queries.not_receiving {
-                sees[point_of_pixel[pixel as usize] as usize] = true;
-            }
-            sees
-        })
-        .collect();
-    let shaded = shade_picture(&view.scene, &view.camera, &view.scene.lights, &seen.visible, &sees);
-    picture_planes(seen.hits.size, &view.scene, &seen.visible, &shaded)
+    for &query in &queries.from_behind {
+        let (node, point) = (queries.nodes[query as usize], &queries.points[query as usize]);
+        let own = point.primitive().and_then(|p| scene.material(p).transmission);
+        if let Some(own) = own {
+            let share = &mut shares[node as usize];
+            *share = std::array::from_fn(|channel| share[channel] * own.transmittance[channel]);
+        }
+    }
+    for &node in &queries.not_receiving {
+        shares[node as usize] = [1.0; 3];
+    }
+    shares
 }
 
 /// The run of one tester at every light.
@@ -60,9 +68,16 @@ pub fn runs_of<'v>(
 ///
 /// # Errors
 /// If the planes have it already.
-pub fn add_mask(planes: &mut ImagePlanes, name: &str, queries: &Queries, run: &TesterRun) -> Result<()> {
+pub fn add_mask(
+    planes: &mut ImagePlanes,
+    name: &str,
+    visible: &VisibleSurfaces,
+    queries: &Queries,
+    run: &TesterRun,
+) -> Result<()> {
     let mut samples = vec![0.0; planes.size().pixels()];
-    for (&pixel, &occluded) in queries.pixels.iter().zip(&run.occluded) {
+    let pixels = queries.nodes.iter().map_while(|&node| visible.pixel_seen(node));
+    for (pixel, &occluded) in pixels.zip(&run.occluded) {
         samples[pixel as usize] = f32::from(u8::from(occluded));
     }
     planes.add_channel(format!("shadow.{name}.{}", run.name), samples)
@@ -75,14 +90,15 @@ pub fn add_mask(planes: &mut ImagePlanes, name: &str, queries: &Queries, run: &T
 pub fn add_light(
     planes: &mut ImagePlanes,
     name: &str,
+    visible: &VisibleSurfaces,
     queries: &Queries,
     verdict: &LightVerdict,
     tester: &str,
 ) -> Result<Vec<Preview>> {
     for result in &verdict.testers {
-        add_mask(planes, name, queries, &result.run)?;
+        add_mask(planes, name, visible, queries, &result.run)?;
     }
-    let Some(maps) = LightMaps::new(planes.size(), name, queries, verdict, tester) else {
+    let Some(maps) = LightMaps::new(planes.size(), name, visible, queries, verdict, tester) else {
         return Ok(Vec::new());
     };
     maps.add_to(planes)?;

@@ -1,6 +1,6 @@
 //! `lightbuffer render`: a scene becomes an OpenEXR picture.
 
-use super::options::{LightOptions, RunOptions, ViewOptions};
+use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages};
 use super::testers::expect_available;
 use super::view::{Seen, View};
@@ -10,8 +10,9 @@ use crate::film::{unique_safe_names, write_exr};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
+use crate::shadow::Queries;
 use crate::shadow::{Basis, TesterEntry, find};
-use crate::verdict::{LightVerdict, Queries, TesterRun, judge, run_tester};
+use crate::verdict::{LightVerdict, TesterRun, judge, run_tester};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -22,6 +23,8 @@ pub struct Args {
     view: ViewOptions,
     #[command(flatten)]
     lights: LightOptions,
+    #[command(flatten)]
+    trees: TreeOptions,
     /// OpenEXR file to write; a PNG preview is written beside it
     #[arg(short, long, value_name = "OUT.exr", value_parser = parse_output)]
     output: PathBuf,
@@ -80,7 +83,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
-    let seen = view.look(args.run.memory_limit())?;
+    let seen = view.look(args.trees.depth, args.run.memory_limit())?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let embree = if args.no_verdict {
@@ -95,7 +98,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let mut lights = Vec::new();
     for light in &view.scene.lights {
         let position = light.position();
-        let queries = Queries::new(&view.scene, &seen.visible, light);
+        let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
         let input = args.run.build_input(&view.scene, &index, position);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = if args.no_verdict {
@@ -110,7 +113,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     if args.run.stats {
         let runs =
             view.scene.lights.iter().zip(&lights).map(|(l, (_, shadow))| (l.name.as_str(), shadow.run()));
-        eprint!("{}", statistics(&seen.hits, runs));
+        eprint!("{}", statistics(&seen.hits, &seen.forest.statistics, runs));
     }
     messages.say(&format!("wrote {}", args.output.display()));
     let wrong = lights.iter().any(|(_, shadow)| shadow.is_native_wrong());
@@ -153,11 +156,12 @@ fn write(
     let runs: Vec<_> = lights.iter().map(|(queries, shadow)| (queries, shadow.run())).collect();
     let mut planes = picture::shaded(view, seen, &runs)?;
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
+    let visible = &seen.forest.nodes;
     for (name, (queries, shadow)) in names.iter().zip(lights) {
         match shadow {
-            Shadow::Alone(run) => picture::add_mask(&mut planes, name, queries, run)?,
+            Shadow::Alone(run) => picture::add_mask(&mut planes, name, visible, queries, run)?,
             Shadow::Judged(verdict) => {
-                picture::add_light(&mut planes, name, queries, verdict, &args.shadow)?;
+                picture::add_light(&mut planes, name, visible, queries, verdict, &args.shadow)?;
             }
         }
     }

@@ -9,9 +9,10 @@ use crate::report::replay::{
     LightFacts, MeetingFacts, PrimitiveFacts, RayFacts, Replay, Status, TracedFacts,
 };
 use crate::scene::{ImageSize, Light};
+use crate::shadow::Queries;
 use crate::shadow::exact::{Arbiter, Contact, Meeting, Occlusion};
 use crate::shadow::{Basis, REGISTRY};
-use crate::verdict::{Cause, Queries};
+use crate::verdict::Cause;
 use crate::visibility::SurfacePoint;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -50,7 +51,7 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
     let view = View::load(&args.view, &lights, messages)?;
     let light =
         choose_light(&view.scene.lights, args.lights.iter().filter_map(LightArgument::name).next_back())?;
-    let seen = view.look(args.run.memory_limit())?;
+    let seen = view.look(1, args.run.memory_limit())?;
     let size = seen.hits.size;
     let [x, y] = args.pixel;
     if x >= size.width || y >= size.height {
@@ -85,15 +86,17 @@ fn document(args: &Args, view: &View, seen: &Seen, light: &Light) -> Result<Repl
     let scene = &view.scene;
     let ImageSize { width, height } = seen.hits.size;
     let pixel = args.pixel[1] * width + args.pixel[0];
-    let point = seen.visible.pixels.iter().position(|&p| p == pixel).map(|i| seen.visible.points[i]);
-    let queries = Queries::new(scene, &seen.visible, light);
+    let visible = &seen.forest.nodes;
+    let node = visible.pixels[..visible.seen].iter().position(|&p| p == pixel);
+    let point = node.map(|i| visible.points[i]);
+    let queries = Queries::new(scene, visible, light);
     let direction = view.camera.direction(&view.camera.raster(seen.hits.size), args.pixel[0], args.pixel[1]);
     let mut replay = Replay {
         scene: scene.name.clone(),
         pixel: args.pixel,
         size: [width, height],
         light: LightFacts::new(light),
-        status: status(&queries, pixel),
+        status: node.map_or(Status::Background, |node| status(&queries, node as u32)),
         ray: RayFacts { origin: view.camera.origin.to_array(), direction: direction.to_array() },
         primitive: point.and_then(|p| p.primitive()).map(|p| PrimitiveFacts::new(scene, p)),
         point: point.map(|p| p.position.to_array()),
@@ -111,15 +114,15 @@ fn document(args: &Args, view: &View, seen: &Seen, light: &Light) -> Result<Repl
     Ok(replay)
 }
 
-fn status(queries: &Queries, pixel: u32) -> Status {
+fn status(queries: &Queries, node: u32) -> Status {
     [
-        (&queries.pixels, Status::Query),
+        (&queries.nodes, Status::Query),
         (&queries.facing_away, Status::FacingAway),
         (&queries.outside_cone, Status::OutsideCone),
         (&queries.not_receiving, Status::NotReceiving),
     ]
     .into_iter()
-    .find(|(pixels, _)| pixels.contains(&pixel))
+    .find(|(nodes, _)| nodes.contains(&node))
     .map_or(Status::Background, |(_, status)| status)
 }
 

@@ -1,7 +1,7 @@
 //! `lightbuffer validate`: every tester against the truth.
 
 use super::Outcome;
-use super::options::{LightOptions, RunOptions, ViewOptions};
+use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages};
 use super::testers::TesterOptions;
 use super::view::{Seen, View};
@@ -10,8 +10,9 @@ use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
+use crate::shadow::Queries;
 use crate::shadow::{SceneIndex, TesterEntry};
-use crate::verdict::{LightVerdict, Progress, Queries, check_arbiter, judge};
+use crate::verdict::{LightVerdict, Progress, check_arbiter, judge};
 use std::path::{Path, PathBuf};
 
 /// Testers that would need more tests than this are skipped by name.
@@ -24,6 +25,8 @@ pub struct Args {
     view: ViewOptions,
     #[command(flatten)]
     lights: LightOptions,
+    #[command(flatten)]
+    trees: TreeOptions,
     /// Folder for validate.json, image.exr and the PNG maps; created if need be
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -64,7 +67,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     // A byte an answer until all testers of a light have been judged.
     let answers = view.size.pixels() as u64 * entries.len() as u64;
     limit.check(format!("the answers of {} testers", entries.len()), answers)?;
-    let seen = view.look(limit)?;
+    let seen = view.look(args.trees.depth, limit)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
@@ -82,12 +85,13 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let mut judged = Vec::new();
     for light in &view.scene.lights {
         let position = light.position();
-        let queries = Queries::new(&view.scene, &seen.visible, light);
+        let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
         let input = args.run.build_input(&view.scene, &index, position);
         let fitting = fitting(entries, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let mut verdict = judge(&input, &queries, &fitting, &bars)?;
-        let mut entry = LightReport::new(&light.name, view.size.width, &queries, &verdict);
+        let visible = &seen.forest.nodes;
+        let mut entry = LightReport::new(&light.name, view.size.width, visible, &queries, &verdict);
         if args.check_arbiter > 0 {
             bars.stage("arbiter against integers");
             let most = args.check_arbiter;
@@ -102,7 +106,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         judged.push((queries, verdict));
     }
     report.totals = Totals::of(&report.lights);
-    if seen.visible.points.is_empty() {
+    if seen.forest.nodes.points.is_empty() {
         messages.warn("the camera sees no surface: there is nothing to judge");
     } else if report.totals.queries == 0 {
         messages.warn("every visible point faces away from every light: there is nothing to judge");
@@ -112,7 +116,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let runs = view.scene.lights.iter().zip(&judged).flat_map(|(light, (_, verdict))| {
             verdict.testers.iter().map(|tester| (light.name.as_str(), &tester.run))
         });
-        eprint!("{}", statistics(&seen.hits, runs));
+        eprint!("{}", statistics(&seen.hits, &seen.forest.statistics, runs));
     }
     let arbiter_wrong = report.lights.iter().filter_map(|l| l.arbiter_check).any(|c| c.wrong > 0);
     Ok(if report.totals.native_wrong() > 0 || arbiter_wrong { Outcome::NativeWrong } else { Outcome::Right })
@@ -165,7 +169,8 @@ fn write_all(
     output::folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
     for (name, (queries, verdict)) in names.iter().zip(judged) {
-        for map in picture::add_light(&mut planes, name, queries, verdict, &args.testers.shadow)? {
+        let visible = &seen.forest.nodes;
+        for map in picture::add_light(&mut planes, name, visible, queries, verdict, &args.testers.shadow)? {
             write_false_colour(&file(&format!("{name}.{}.png", map.kind)), &map.colours)?;
         }
     }

@@ -5,7 +5,7 @@ use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::memory::MemoryLimit;
 use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
-use crate::shading::ShadedPoint;
+use crate::shading::{RayForest, ShadedPoint};
 use crate::shadow::REGISTRY;
 use crate::visibility::{FirstHits, SurfacePoint, VisibleSurfaces, t_buffer};
 use glam::Vec3;
@@ -52,11 +52,11 @@ impl View {
         Ok(View { scene, camera, size, added })
     }
 
-    /// First hits by the t-buffer, and the points behind them.
+    /// First hits by the t-buffer, and the ray trees behind them of so many rays one behind the other.
     ///
     /// # Errors
     /// If the image with the masks of all lights would need more memory than the limit.
-    pub fn look(&self, limit: MemoryLimit) -> Result<Seen> {
+    pub fn look(&self, depth: u32, limit: MemoryLimit) -> Result<Seen> {
         let lights = self.scene.lights.len() as u64;
         let what = format!(
             "an image of {}x{} pixels with {}",
@@ -67,7 +67,9 @@ impl View {
         limit.check(what, self.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
         let hits = t_buffer::first_hits(&self.scene, &self.camera, self.size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
-        Ok(Seen { hits, visible })
+        let eye_rays = self.size.pixels() as u64;
+        let forest = RayForest::grow(&self.scene, visible, eye_rays, depth);
+        Ok(Seen { hits, forest })
     }
 }
 
@@ -82,8 +84,8 @@ const LIGHT_BYTES: u64 = size_of::<SurfacePoint>() as u64 + 4 + 5 * (REGISTRY.le
 pub struct Seen {
     /// The primitive of every pixel.
     pub hits: FirstHits,
-    /// The visible points.
-    pub visible: VisibleSurfaces,
+    /// The visible points, with those in mirrors and behind glass.
+    pub forest: RayForest,
 }
 
 fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
@@ -100,7 +102,8 @@ fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
 /// Replaces the lights of the scene by those of `--light` or `--lights`, all of one strength: together as
 /// bright at the scene's centre as the key light of a framed mesh.
 fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
-    let (low, high) = scene.bounds().expect("a scene with triangles");
+    // A scene that nothing in it bounds is looked at around the origin.
+    let (low, high) = scene.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
     let centre = low * 0.5 + high * 0.5;
     let positions = match options.rig {
         Some(count) => ring(centre, (high - low).length() * 0.5, count),

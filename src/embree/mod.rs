@@ -1,18 +1,20 @@
-//! Embree as oracle and as rival: scenes of triangles, asked for occlusion in batches.
+//! Embree as oracle and as rival: scenes of triangles and curved surfaces, asked for occlusion in batches.
 //!
-//! A [`Device`] is Embree itself with its threads; a [`TriangleScene`] is one triangle mesh, built; and
-//! [`TriangleScene::occluded`] answers many [`ShadowRay`]s. Beneath lies the C shim in `ffi/`, which hides whether it
-//! is Embree 3 or 4.
+//! A [`Device`] is Embree itself with its threads; an [`EmbreeScene`] is made of [`SceneParts`], built; and
+//! [`EmbreeScene::occluded`] answers many [`ShadowRay`]s. [`EmbreeScene::crossed`] tells which transparent primitives
+//! they pass through. Beneath lies the C shim in `ffi/`, which hides whether it is Embree 3 or 4.
 //!
 //! Everything that can be chosen, for scenes and for queries, makes up an [`EmbreeMode`], which has a name.
 //!
-//! An **oracle** run wants [`Robustness::Robust`] and [`Receiver::Excluded`], so that a ray passes through the triangle
+//! An **oracle** run wants [`Robustness::Robust`] and [`Receiver::Excluded`], so that a ray leaves the primitive
 //! it starts on whatever its rounding. A **speed** run wants [`Receiver::Included`] and an epsilon as
 //! [`ShadowRay::t_near`], since a registered filter costs time even where it changes nothing,
 //! and perhaps [`Denormals::Flushed`], as Embree advises.
 //!
 //! The floating-point control word is, after every call, what it was before.
 
+mod crossings;
+mod curved;
 mod device;
 mod ffi;
 mod holes;
@@ -23,11 +25,12 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
+pub use crossings::RayCrossing;
 pub use device::Device;
 pub use holes::{HoleMask, HoleWrap, Holes};
 pub use mode::EmbreeMode;
 pub use query::{CheckedRays, Coherence, Denormals, Grouping, PacketWidth, QueryOptions, ShadowRay};
-pub use scene::{BuildQuality, Receiver, Robustness, SceneOptions, TriangleScene};
+pub use scene::{BuildQuality, EmbreeScene, Receiver, Robustness, SceneOptions, SceneParts};
 
 use std::ffi::c_char;
 

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use super::scene::LARGEST_COORDINATE;
-use super::{TriangleScene, call, ffi};
+use super::{EmbreeScene, call, ffi};
 use crate::{Error, Result};
 
 /// The segment `origin + t * direction`, `t_near <= t <= t_far`, in the space of the vertices. With `t_near > t_far` it
@@ -11,7 +11,7 @@ use crate::{Error, Result};
 /// `t_far` is 1 at the light.
 ///
 /// A triangle met at exactly `t_far` blocks. One met at exactly `t_near` blocks in a robust scene and does not in a fast
-/// one (Embree 3.13.5 and 4.3.3).
+/// one (Embree 3.13.5 and 4.3.3). Curved surfaces block at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct ShadowRay {
@@ -23,8 +23,10 @@ pub struct ShadowRay {
     pub direction: [f32; 3],
     /// At least 0; may be infinite.
     pub t_far: f32,
-    /// Index of the triangle that never blocks, or [`ShadowRay::NO_TRIANGLE`]. Read only if the scene was built with
-    /// [`Receiver::Excluded`](super::Receiver::Excluded).
+    /// Number of the primitive that it starts on, or [`ShadowRay::NO_PRIMITIVE`]. Read only if the scene was built with
+    /// [`Receiver::Excluded`](super::Receiver::Excluded). A flat one never blocks. A curved one can block its own
+    /// points: it is taken as passing through the origin, whatever the rounding, and blocks if the line meets it once
+    /// more within the segment.
     pub excluded: u32,
 }
 
@@ -37,7 +39,7 @@ const _: () = {
     assert!(offset_of!(ShadowRay, direction) == offset_of!(ffi::LbRay, direction));
     assert!(offset_of!(ShadowRay, t_far) == offset_of!(ffi::LbRay, t_far));
     assert!(offset_of!(ShadowRay, excluded) == offset_of!(ffi::LbRay, excluded));
-    assert!(ShadowRay::NO_TRIANGLE == ffi::LB_NO_TRIANGLE);
+    assert!(ShadowRay::NO_PRIMITIVE == ffi::LB_NO_PRIMITIVE);
 };
 
 /// How many rays a packet has; those of the last packet that are not there are inactive.
@@ -95,7 +97,7 @@ pub struct QueryOptions {
 }
 
 impl QueryOptions {
-    fn grouping_code(self) -> u32 {
+    pub(super) fn grouping_code(self) -> u32 {
         match self.grouping {
             Grouping::Packets(PacketWidth::One) => ffi::LB_PACKET_1,
             Grouping::Packets(PacketWidth::Four) => ffi::LB_PACKET_4,
@@ -105,7 +107,7 @@ impl QueryOptions {
         }
     }
 
-    fn flags(self) -> u32 {
+    pub(super) fn flags(self) -> u32 {
         let coherent = match self.coherence {
             Coherence::Coherent => ffi::LB_QUERY_COHERENT,
             Coherence::Incoherent => 0,
@@ -119,8 +121,8 @@ impl QueryOptions {
 }
 
 impl ShadowRay {
-    /// [`ShadowRay::excluded`] of a ray that every triangle may block.
-    pub const NO_TRIANGLE: u32 = u32::MAX;
+    /// [`ShadowRay::excluded`] of a ray that every primitive may block.
+    pub const NO_PRIMITIVE: u32 = u32::MAX;
 
     /// A segment that has no point, so that nothing blocks it.
     pub const EMPTY: ShadowRay = ShadowRay {
@@ -128,24 +130,26 @@ impl ShadowRay {
         t_near: 1.0,
         direction: [0.0, 0.0, 1.0],
         t_far: 0.0,
-        excluded: ShadowRay::NO_TRIANGLE,
+        excluded: ShadowRay::NO_PRIMITIVE,
     };
 
+    /// Whether a ray can begin at a point.
+    pub fn is_in_range([x, y, z]: [f32; 3]) -> bool {
+        (x.abs() < LARGEST_COORDINATE) & (y.abs() < LARGEST_COORDINATE) & (z.abs() < LARGEST_COORDINATE)
+    }
+
     fn is_valid(&self) -> bool {
-        let in_range = |[x, y, z]: [f32; 3]| {
-            (x.abs() < LARGEST_COORDINATE) & (y.abs() < LARGEST_COORDINATE) & (z.abs() < LARGEST_COORDINATE)
-        };
         let [x, y, z] = self.direction;
-        in_range(self.origin)
-            & in_range(self.direction)
+        ShadowRay::is_in_range(self.origin)
+            & ShadowRay::is_in_range(self.direction)
             & ((x != 0.0) | (y != 0.0) | (z != 0.0))
             & (self.t_near >= 0.0)
             & self.t_near.is_finite()
             & (self.t_far >= 0.0)
     }
 
-    fn excludes_one_of(&self, triangles: usize) -> bool {
-        self.excluded == ShadowRay::NO_TRIANGLE || (self.excluded as usize) < triangles
+    fn excludes_one_of(&self, primitives: usize) -> bool {
+        self.excluded == ShadowRay::NO_PRIMITIVE || (self.excluded as usize) < primitives
     }
 }
 
@@ -169,19 +173,19 @@ impl<'a> CheckedRays<'a> {
     }
 }
 
-impl TriangleScene {
-    /// `answers[i]` becomes whether a triangle meets the segment `rays[i]`, as Embree sees it. Runs on this thread;
-    /// the scene may be asked by others at the same time.
+impl EmbreeScene {
+    /// `answers[i]` becomes whether a primitive that is not transparent meets the segment `rays[i]`, as Embree sees
+    /// it. Runs on this thread; the scene may be asked by others at the same time.
     ///
     /// # Errors
     ///
-    /// Slices of different lengths, a ray that is not as [`ShadowRay`] says, an excluded triangle that is not there,
+    /// Slices of different lengths, a ray that is not as [`ShadowRay`] says, an excluded primitive that is not there,
     /// streams where there are none, or whatever Embree reports. The answers then mean nothing.
     pub fn occluded(&self, rays: &[ShadowRay], options: QueryOptions, answers: &mut [bool]) -> Result<()> {
         self.occluded_checked(CheckedRays::new(rays)?, options, answers)
     }
 
-    /// As [`occluded`](TriangleScene::occluded), for rays that were checked before: nothing but Embree's work and the
+    /// As [`occluded`](EmbreeScene::occluded), for rays that were checked before: nothing but Embree's work and the
     /// loop around it.
     ///
     /// # Errors
@@ -212,12 +216,12 @@ impl TriangleScene {
         })
     }
 
-    fn check_excluded(&self, rays: &[ShadowRay]) -> Result<()> {
-        if let Some(triangles) = self.excludable()
-            && let Some(ray) = rays.iter().position(|ray| !ray.excludes_one_of(triangles))
+    pub(super) fn check_excluded(&self, rays: &[ShadowRay]) -> Result<()> {
+        if let Some(primitives) = self.excludable()
+            && let Some(ray) = rays.iter().position(|ray| !ray.excludes_one_of(primitives))
         {
             return Err(Error::Embree(format!(
-                "ray {ray} excludes triangle {} of {triangles}",
+                "ray {ray} excludes primitive {} of {primitives}",
                 rays[ray].excluded
             )));
         }

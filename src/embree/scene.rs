@@ -1,8 +1,10 @@
-//! One triangle mesh, built by Embree.
+//! Triangles and curved surfaces, built by Embree.
 
 use std::ptr::{self, NonNull};
 
+use super::curved::CurvedSurfaces;
 use super::{Device, Holes, call, ffi};
+use crate::geometry::curved::Shape;
 use crate::{Error, Result};
 
 /// Embree leaves out, and says nothing of, triangles with a coordinate of this magnitude or more.
@@ -28,12 +30,13 @@ pub enum BuildQuality {
     High,
 }
 
-/// What becomes of the triangle that a ray names as [`ShadowRay::excluded`](super::ShadowRay::excluded).
+/// What becomes of the primitive that a ray names as [`ShadowRay::excluded`](super::ShadowRay::excluded).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Receiver {
     /// It blocks as any other: the field is not read.
     Included,
-    /// It never blocks that ray. Registers a filter function, which slows every query of the scene.
+    /// That ray leaves it behind: a flat one never blocks it, another where it is met once more. For triangles a
+    /// filter function is registered, which slows every query of the scene.
     Excluded,
 }
 
@@ -44,13 +47,31 @@ pub struct SceneOptions {
     pub robustness: Robustness,
     /// How well its tree is built.
     pub quality: BuildQuality,
-    /// Whether rays may exclude a triangle.
+    /// Whether rays may exclude a primitive.
     pub receiver: Receiver,
 }
 
-/// A triangle mesh that Embree has built and that any number of threads may query at once.
+/// What a scene is made of: all of it is copied. Primitives are numbered, first all triangles, then all curved
+/// surfaces.
+#[derive(Debug, Default)]
+pub struct SceneParts<'a> {
+    /// Corners of triangles, in world space.
+    pub vertices: &'a [[f32; 3]],
+    /// Indices into `vertices`; winding plays no part.
+    pub triangles: &'a [[u32; 3]],
+    /// Where rays pass through the triangles. Holes register a filter function, which slows every query.
+    pub holes: Option<Holes>,
+    /// Surfaces without defects.
+    pub curved: &'a [Shape],
+    /// Whether light passes through each primitive, which then blocks no ray and is found by
+    /// [`EmbreeScene::crossed`]; empty if it passes through none. Transparent triangles register a filter function,
+    /// which slows every query.
+    pub transparent: &'a [bool],
+}
+
+/// Primitives that Embree has built and that any number of threads may query at once.
 #[derive(Debug)]
-pub struct TriangleScene {
+pub struct EmbreeScene {
     scene: NonNull<ffi::LbScene>,
     /// Three floats a vertex and one that is padding: Embree reads 16 bytes at the last vertex. Embree refers to
     /// these buffers, so they live, unchanged, until the scene is freed.
@@ -58,6 +79,10 @@ pub struct TriangleScene {
     triangles: Vec<[u32; 3]>,
     /// What the filter looks at; Embree refers to it too.
     _holes: Option<Holes>,
+    /// For each triangle whether light passes through it, if it passes through any: the filter looks at this too.
+    _transparent: Option<Vec<bool>>,
+    /// What the callbacks look at.
+    curved: CurvedSurfaces,
     receiver: Receiver,
     /// What the device's memory grew by.
     embree_bytes: usize,
@@ -65,13 +90,13 @@ pub struct TriangleScene {
 }
 
 // SAFETY: a committed scene is only read; Embree allows that from any thread, and freeing it on another than its own.
-unsafe impl Send for TriangleScene {}
+unsafe impl Send for EmbreeScene {}
 // SAFETY: as above; nothing in it changes behind a shared reference.
-unsafe impl Sync for TriangleScene {}
+unsafe impl Sync for EmbreeScene {}
 
-impl TriangleScene {
+impl EmbreeScene {
     /// Builds the triangles `triangles`, whose corners are indices into `vertices`, in world space. Both are copied.
-    /// A triangle's number is its index; winding plays no part. No triangles at all is a scene that blocks nothing.
+    /// A triangle's number is its index; winding plays no part. Nothing at all is a scene that blocks nothing.
     ///
     /// # Errors
     ///
@@ -82,48 +107,50 @@ impl TriangleScene {
         vertices: &[[f32; 3]],
         triangles: &[[u32; 3]],
         options: SceneOptions,
-    ) -> Result<TriangleScene> {
-        TriangleScene::with_holes(device, vertices, triangles, None, options)
+    ) -> Result<EmbreeScene> {
+        EmbreeScene::of_parts(device, SceneParts { vertices, triangles, ..SceneParts::default() }, options)
     }
 
-    /// As [`new`](TriangleScene::new), with triangles that rays pass through where they have holes. Holes register
-    /// a filter function, which slows every query of the scene.
+    /// As [`new`](EmbreeScene::new), of everything that there can be.
     ///
     /// # Errors
     ///
-    /// As there, and holes of another number of triangles.
-    pub fn with_holes(
-        device: &Device,
-        vertices: &[[f32; 3]],
-        triangles: &[[u32; 3]],
-        holes: Option<Holes>,
-        options: SceneOptions,
-    ) -> Result<TriangleScene> {
-        check_mesh(vertices, triangles)?;
-        if let Some(holes) = holes.as_ref().filter(|holes| holes.triangles() != triangles.len()) {
-            let (have, want) = (holes.triangles(), triangles.len());
-            return Err(Error::Embree(format!("holes of {have} triangles for {want}")));
-        }
+    /// As there; holes or transparency of another number of primitives, a curved surface beyond Embree's range, or
+    /// an Embree that cannot have curved ones.
+    pub fn of_parts(device: &Device, parts: SceneParts<'_>, options: SceneOptions) -> Result<EmbreeScene> {
+        check(&parts)?;
+        let SceneParts { vertices, triangles, holes, curved, transparent } = parts;
         let mut padded = Vec::with_capacity(3 * vertices.len() + 1);
         padded.extend_from_slice(vertices.as_flattened());
         padded.push(0.0);
         let (vertices, triangles) = (padded, triangles.to_vec());
+        let (flat, round) = transparent.split_at(transparent.len().min(triangles.len()));
+        let curved = CurvedSurfaces::new(curved, round)?;
+        // A filter that never rejects anything would cost time all the same.
+        let transparent = flat.contains(&true).then(|| flat.to_vec());
 
         let memory = device.lock_memory();
         let before = device.bytes()?;
-        let view = holes.as_ref().map(Holes::as_ffi);
+        let hole_view = holes.as_ref().map(Holes::as_ffi);
+        let view = ffi::LbParts {
+            vertices: vertices.as_ptr(),
+            vertex_count: vertices.len() / 3,
+            triangles: triangles.as_flattened().as_ptr(),
+            triangle_count: triangles.len(),
+            holes: hole_view.as_ref().map_or(ptr::null(), ptr::from_ref),
+            transparent: transparent.as_ref().map_or(ptr::null(), |bools| bools.as_ptr().cast()),
+            curved: curved.as_slice().as_ptr(),
+            curved_count: curved.as_slice().len(),
+        };
         let mut scene = ptr::null_mut();
         // SAFETY: the device lives; the buffers hold as many elements as said, padding included, all indices are in
-        // range, and they move into the scene beside the handle that refers to their heap memory, as the holes do, which
-        // are checked; the two pointers to be filled are valid for writes.
+        // range, a `bool` is a byte that is 0 or 1, curved surfaces are of known kinds, and all of them move into the
+        // scene beside the handle that refers to their heap memory, as the holes do, which are checked; the two
+        // pointers to be filled are valid for writes.
         call(|error| unsafe {
             ffi::lb_scene_new(
                 device.as_ptr(),
-                vertices.as_ptr(),
-                vertices.len() / 3,
-                triangles.as_flattened().as_ptr(),
-                triangles.len(),
-                view.as_ref().map_or(ptr::null(), ptr::from_ref),
+                &view,
                 options.quality.code(),
                 options.flags(),
                 &mut scene,
@@ -133,11 +160,13 @@ impl TriangleScene {
         let scene = NonNull::new(scene).expect("a scene that was made is not null");
         let embree_bytes = device.bytes().map_or(0, |after| usize::try_from(after - before).unwrap_or(0));
         drop(memory);
-        Ok(TriangleScene {
+        Ok(EmbreeScene {
             scene,
             vertices,
             triangles,
             _holes: holes,
+            _transparent: transparent,
+            curved,
             receiver: options.receiver,
             embree_bytes,
             device: device.clone(),
@@ -146,12 +175,16 @@ impl TriangleScene {
 
     /// Memory in bytes: what Embree allocated to build the scene and still holds, and the buffers it refers to.
     pub fn bytes(&self) -> usize {
-        self.embree_bytes + size_of_val(&self.vertices[..]) + size_of_val(&self.triangles[..])
+        self.embree_bytes
+            + size_of_val(&self.vertices[..])
+            + size_of_val(&self.triangles[..])
+            + size_of_val(self.curved.as_slice())
     }
 
-    /// How many triangles there are, so that a ray's excluded triangle can be checked; `None` if none is excluded.
+    /// How many primitives there are, so that the one that a ray excludes can be checked; `None` if none is excluded.
     pub(super) fn excludable(&self) -> Option<usize> {
-        (self.receiver == Receiver::Excluded).then_some(self.triangles.len())
+        let count = self.triangles.len() + self.curved.as_slice().len();
+        (self.receiver == Receiver::Excluded).then_some(count)
     }
 
     pub(super) fn as_ptr(&self) -> *const ffi::LbScene {
@@ -159,7 +192,7 @@ impl TriangleScene {
     }
 }
 
-impl Drop for TriangleScene {
+impl Drop for EmbreeScene {
     fn drop(&mut self) {
         let _memory = self.device.lock_memory();
         // SAFETY: made by `lb_scene_new` and freed only here; buffers and device are dropped after this.
@@ -192,8 +225,10 @@ impl SceneOptions {
     }
 }
 
-/// Everything that Embree would read out of bounds or leave out silently.
-fn check_mesh(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
+/// Everything that Embree would read out of bounds or leave out silently, but for curved surfaces, which are checked
+/// where they are copied.
+fn check(parts: &SceneParts<'_>) -> Result<()> {
+    let SceneParts { vertices, triangles, holes, curved, transparent } = parts;
     // Written so that NaN fails.
     let fits = |coordinate: &f32| coordinate.abs() < LARGEST_COORDINATE;
     if let Some(vertex) = vertices.iter().position(|vertex| !vertex.iter().all(fits)) {
@@ -202,9 +237,10 @@ fn check_mesh(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
             vertices[vertex]
         )));
     }
-    // `u32::MAX` is how a ray excludes no triangle.
-    if triangles.len() > u32::MAX as usize {
-        return Err(Error::Embree(format!("{} triangles are too many", triangles.len())));
+    let primitives = triangles.len() + curved.len();
+    // `u32::MAX` is how a ray excludes no primitive.
+    if primitives > u32::MAX as usize {
+        return Err(Error::Embree(format!("{primitives} primitives are too many")));
     }
     let in_range = |&index: &u32| (index as usize) < vertices.len();
     if let Some(triangle) = triangles.iter().position(|triangle| !triangle.iter().all(in_range)) {
@@ -213,6 +249,14 @@ fn check_mesh(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
             triangles[triangle],
             vertices.len()
         )));
+    }
+    if let Some(holes) = holes.as_ref().filter(|holes| holes.triangles() != triangles.len()) {
+        let (have, want) = (holes.triangles(), triangles.len());
+        return Err(Error::Embree(format!("holes of {have} triangles for {want}")));
+    }
+    if !transparent.is_empty() && transparent.len() != primitives {
+        let have = transparent.len();
+        return Err(Error::Embree(format!("transparency of {have} primitives for {primitives}")));
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::ptr;
 
 use super::{call, ffi};
 use crate::Error;
-use crate::embree::{Device, EmbreeMode, SceneOptions, ShadowRay, TriangleScene};
+use crate::embree::{Device, EmbreeMode, EmbreeScene, SceneOptions, ShadowRay};
 
 const OPTIONS: SceneOptions = EmbreeMode::ORACLE.scene;
 
@@ -15,29 +15,23 @@ fn embrees_own_errors_come_back() {
     let vertices = [0.0_f32; 13];
     let triangles = [0_u32, 1, 2];
     let misaligned = vertices.as_ptr().cast::<u8>().wrapping_add(1).cast::<f32>();
+    let parts = ffi::LbParts {
+        vertices: misaligned,
+        vertex_count: 3,
+        triangles: triangles.as_ptr(),
+        triangle_count: 1,
+        ..ffi::LbParts::default()
+    };
     let mut scene = ptr::null_mut();
     // SAFETY: Embree refuses an address that is not a multiple of 4 before it reads anything there, and the buffer
     // would be long enough anyway.
-    let made = call(|error| unsafe {
-        ffi::lb_scene_new(
-            device.as_ptr(),
-            misaligned,
-            3,
-            triangles.as_ptr(),
-            1,
-            ptr::null(),
-            1,
-            0,
-            &mut scene,
-            error,
-        )
-    });
+    let made = call(|error| unsafe { ffi::lb_scene_new(device.as_ptr(), &parts, 1, 0, &mut scene, error) });
     let Err(Error::Embree(text)) = made else { panic!("{made:?}") };
     assert!(text.starts_with("invalid operation: "), "{text}");
     assert!(text.contains("4 bytes aligned"), "{text}");
     assert!(scene.is_null());
 
-    assert!(TriangleScene::new(&device, &[[0.0; 3]; 3], &[[0, 1, 2]], OPTIONS).is_ok());
+    assert!(EmbreeScene::new(&device, &[[0.0; 3]; 3], &[[0, 1, 2]], OPTIONS).is_ok());
     let ignored = device.bytes().unwrap();
     assert_eq!(ignored, 0, "a scene that failed or was dropped holds memory");
 }
@@ -46,7 +40,7 @@ fn embrees_own_errors_come_back() {
 #[test]
 fn unknown_groupings_are_refused() {
     let device = Device::new(1).unwrap();
-    let scene = TriangleScene::new(&device, &[[0.0; 3]; 3], &[[0, 1, 2]], OPTIONS).unwrap();
+    let scene = EmbreeScene::new(&device, &[[0.0; 3]; 3], &[[0, 1, 2]], OPTIONS).unwrap();
     for grouping in [0, 2, 5, 32, 255, 257, u32::MAX] {
         // SAFETY: no ray is read and no answer is written, since there are none.
         let asked = call(|error| unsafe {
@@ -129,7 +123,7 @@ mod float_control {
             for mode in EmbreeMode::all() {
                 let mut scene = None;
                 check("a scene", &mut || {
-                    scene = Some(TriangleScene::new(&device, &vertices, &triangles, mode.scene).unwrap());
+                    scene = Some(EmbreeScene::new(&device, &vertices, &triangles, mode.scene).unwrap());
                 });
                 let scene = scene.unwrap();
                 let mut answers = vec![false; rays.len()];
@@ -149,8 +143,8 @@ mod float_control {
         }
     }
 
-    fn scene_of(device: &Device) -> TriangleScene {
-        TriangleScene::new(device, &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]], OPTIONS)
+    fn scene_of(device: &Device) -> EmbreeScene {
+        EmbreeScene::new(device, &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], &[[0, 1, 2]], OPTIONS)
             .unwrap()
     }
 }

@@ -73,6 +73,10 @@ fn allowance(space: &LightSpace) -> f64 {
 }
 
 impl LightTriangle {
+    /// What leaves every test undecided: stands for primitives that are not triangles among those that are.
+    pub const UNDECIDED: LightTriangle =
+        LightTriangle { x: [f32::NAN; 4], y: [f32::NAN; 4], z: [f32::NAN; 4], offset: [0.0; 4] };
+
     /// The planes of a triangle, or `None` if its plane holds the light (such triangles never block).
     pub fn new(space: &LightSpace, corners: [Vec3; 3]) -> Option<LightTriangle> {
         let planes = OrientedPlanes::new(space, oriented(space.light(), corners)?.map(Vec3::as_dvec3));

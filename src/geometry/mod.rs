@@ -27,6 +27,7 @@ mod sign;
 pub mod solid;
 pub mod surd;
 pub mod texel;
+pub mod volume;
 
 pub use light_position::{LightPosition, LightSpace};
 pub use light_triangle::{Filtered, LightPoint, LightTriangle};

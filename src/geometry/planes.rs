@@ -137,6 +137,21 @@ impl OrientedPlanes {
         }
     }
 
+    /// A triangle of a hull seen by a light, as [`of_hull`](OrientedPlanes::of_hull) from an apex.
+    pub fn of_hull_for(space: &LightSpace, [a, b, c]: [DVec3; 3]) -> Option<OrientedPlanes> {
+        match space.light() {
+            LightPosition::At(light) => OrientedPlanes::of_hull(light.as_dvec3(), [a, b, c]),
+            LightPosition::Towards(direction) => {
+                let direction = direction.as_dvec3();
+                let (away, bound) = Plane::through(b - a, c - a).dot(-direction, DVec3::ZERO);
+                match Sign::certain(away, bound)? {
+                    Sign::Positive => Some(OrientedPlanes::new(space, [a, b, c])),
+                    _ => Some(OrientedPlanes::new(space, [a, c, b])),
+                }
+            }
+        }
+    }
+
     /// Seen by a light.
     pub fn new(space: &LightSpace, corners: [DVec3; 3]) -> OrientedPlanes {
         let origin = space.origin().as_dvec3();

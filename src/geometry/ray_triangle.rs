@@ -4,11 +4,11 @@
 //! ordered so that det(u0, u1, u2) > 0, a direction d hits the closed triangle at some t > 0 exactly if
 //! (ui x uj) . d >= 0 for the three edges. Then t = h / (N . d), a quotient of positive numbers of degree 3.
 
-use super::curved::ExactParameter;
+use super::curved::{ExactParameter, RayStart};
 use super::expansion::{self, Expansion};
-use super::planes::{OrientedPlanes, oriented};
+use super::planes::{OrientedPlanes, Plane, oriented};
 use super::texel::{Place, TexelAxis, Weights};
-use super::{ROUNDOFF, Sign};
+use super::{LightPosition, ROUNDOFF, Sign};
 use glam::{DVec3, Vec3};
 use std::cmp::Ordering;
 
@@ -84,6 +84,50 @@ impl RayTriangle {
         let place = |t: &RayTriangle| exact_parameter(t.origin, direction, t.oriented);
         place(first).order(&place(second))
     }
+}
+
+/// Where a ray hits the closed triangle beyond its start. A ray parallel to the triangle's plane misses it.
+pub fn hit_beyond(
+    origin: Vec3,
+    direction: Vec3,
+    corners: [Vec3; 3],
+    start: &RayStart,
+) -> Option<RayParameter> {
+    // Seen along the ray, from infinitely far behind it, the triangle's edges are planes along the ray.
+    let corners = oriented(LightPosition::Towards(-direction), corners)?;
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
+    for (k, (p, q)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+        let relative = o - p;
+        let (value, bound) = Plane::through(q - p, -d).dot(relative, relative.abs() * f64::EPSILON);
+        let sign = Sign::certain(value, bound).unwrap_or_else(|| edge_along(origin, direction, corners, k));
+        if sign == Sign::Negative {
+            return None;
+        }
+    }
+    let own = Plane::through(b - a, c - a);
+    let (height, height_error) = own.dot(a - o, (a - o).abs() * f64::EPSILON);
+    let (slope, slope_error) = own.dot(d, DVec3::ZERO);
+    let value = height / slope;
+    let certain = slope > 2.0 * slope_error && value.is_finite();
+    let error = if certain {
+        2.0 * (height_error + value.abs() * slope_error) / slope + 4.0 * ROUNDOFF * value.abs()
+    } else {
+        f64::INFINITY
+    };
+    let hit = RayParameter { value, error };
+    let order = hit.certain_order(start.rounded()).unwrap_or_else(|| {
+        exact_parameter(origin, direction, corners).order(&start.exact(origin, direction))
+    });
+    (order == Ordering::Greater).then_some(hit)
+}
+
+/// The exact side of the plane through edge k along a ray.
+fn edge_along(origin: Vec3, direction: Vec3, corners: [Vec3; 3], k: usize) -> Sign {
+    let (p, q) = (corners[k], corners[(k + 1) % 3]);
+    let backwards = (-direction).to_array().map(Expansion::from);
+    let normal = expansion::cross(&expansion::difference(q, p), &backwards);
+    expansion::dot(&normal, &expansion::difference(origin, p)).sign()
 }
 
 /// Where the line of a ray meets the plane of a triangle that it is not parallel to, exactly.

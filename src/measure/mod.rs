@@ -2,4 +2,4 @@
 
 mod run;
 
-pub use run::{Answers, Timed, answer, timed};
+pub use run::{Answers, Question, Timed, answer, timed};

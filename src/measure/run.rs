@@ -1,7 +1,8 @@
 //! One tester over many queries, on all threads of the pool it is called in.
 
 use crate::error::Result;
-use crate::shadow::{Counters, ShadowTester};
+use crate::scene::Scene;
+use crate::shadow::{Counters, Crossings, ShadowTester};
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -30,10 +31,32 @@ pub fn timed<T>(work: impl FnOnce() -> T) -> Timed<T> {
 pub struct Answers {
     /// Whether each point is occluded.
     pub occluded: Vec<bool>,
+    /// What transparent surfaces the segment of each point crosses, nothing for those that are occluded; `None`
+    /// if that was not asked for.
+    pub crossings: Option<Crossings>,
     /// The work it took.
     pub counters: Counters,
     /// Wall-clock seconds.
     pub seconds: f64,
+}
+
+/// What is asked of a tester.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Question {
+    /// Who is occluded.
+    Occlusion,
+    /// Who is occluded, and what lies in the way of the others.
+    OcclusionAndCrossings,
+}
+
+impl Question {
+    /// What answers a scene calls for.
+    pub fn of(scene: &Scene) -> Question {
+        match scene.has_transparent_casters() {
+            true => Question::OcclusionAndCrossings,
+            false => Question::Occlusion,
+        }
+    }
 }
 
 /// Answers all queries in chunks; `advance` is told the number of each finished chunk.
@@ -43,6 +66,7 @@ pub struct Answers {
 pub fn answer(
     tester: &dyn ShadowTester,
     points: &[SurfacePoint],
+    question: Question,
     advance: &(dyn Fn(u64) + Sync),
 ) -> Result<Answers> {
     let mut occluded = vec![false; points.len()];
@@ -51,14 +75,47 @@ pub fn answer(
             .par_chunks(CHUNK)
             .zip(occluded.par_chunks_mut(CHUNK))
             .map(|(points, answers)| {
-                let counters = tester.occluded(points, answers)?;
+                let mut counters = tester.occluded(points, answers)?;
+                let crossings = match question {
+                    Question::Occlusion => None,
+                    Question::OcclusionAndCrossings => Some(crossed(tester, points, answers, &mut counters)?),
+                };
                 advance(points.len() as u64);
-                Ok(counters)
+                Ok((counters, crossings))
             })
-            .try_reduce(Counters::default, |mut sum, counters| {
-                sum += counters;
-                Ok(sum)
-            })
+            .collect::<Result<Vec<_>>>()
     });
-    Ok(Answers { occluded, counters: run.value?, seconds: run.seconds })
+    let mut counters = Counters::default();
+    let mut crossings = (question == Question::OcclusionAndCrossings).then(Crossings::default);
+    for (chunk, crossed) in run.value? {
+        counters += chunk;
+        if let (Some(all), Some(crossed)) = (&mut crossings, crossed) {
+            all.append(&crossed);
+        }
+    }
+    Ok(Answers { occluded, crossings, counters, seconds: run.seconds })
+}
+
+/// What the segments of those that are not occluded cross.
+fn crossed(
+    tester: &dyn ShadowTester,
+    points: &[SurfacePoint],
+    occluded: &[bool],
+    counters: &mut Counters,
+) -> Result<Crossings> {
+    let lit = points.iter().zip(occluded).filter(|(_, occluded)| !**occluded);
+    let lit: Vec<SurfacePoint> = lit.map(|(point, _)| *point).collect();
+    let mut found = Crossings::default();
+    *counters += tester.crossed(&lit, &mut found)?;
+    let mut crossings = Crossings::default();
+    let mut next = 0;
+    for &occluded in occluded {
+        if occluded {
+            crossings.push([]);
+        } else {
+            crossings.push(found.of(next).iter().copied());
+            next += 1;
+        }
+    }
+    Ok(crossings)
 }

@@ -4,7 +4,8 @@ use crate::error::Result;
 use crate::film::{Category, CategoryMap, ImagePlanes, palette};
 use crate::scene::{ImageSize, Scene};
 use crate::shading::ShadedPoint;
-use crate::verdict::{LightVerdict, PixelVerdict, Queries};
+use crate::shadow::Queries;
+use crate::verdict::{LightVerdict, PixelVerdict};
 use crate::visibility::VisibleSurfaces;
 
 /// R G B A, Z, P, N, albedo and identifiers of a picture. The background is 0 with alpha 0 and Z infinite.
@@ -20,7 +21,7 @@ pub fn picture_planes(
     let mut planes = ImagePlanes::new(size);
     let spread = |background: f32, value: &dyn Fn(usize) -> f32| {
         let mut samples = vec![background; size.pixels()];
-        for (i, &pixel) in visible.pixels.iter().enumerate() {
+        for (i, &pixel) in visible.pixels[..visible.seen].iter().enumerate() {
             samples[pixel as usize] = value(i);
         }
         samples
@@ -71,6 +72,7 @@ impl LightMaps {
     pub fn new(
         size: ImageSize,
         light: &str,
+        visible: &VisibleSurfaces,
         queries: &Queries,
         verdict: &LightVerdict,
         tester: &str,
@@ -84,12 +86,12 @@ impl LightMaps {
             (&queries.outside_cone, PixelVerdict::OutsideCone, Difference::Unlit),
             (&queries.not_receiving, PixelVerdict::NotReceiving, Difference::NotReceiving),
         ] {
-            for &pixel in unasked {
+            for pixel in unasked.iter().filter_map(|&node| visible.pixel_seen(node)) {
                 pixels[pixel as usize].0 = verdict;
                 difference[pixel as usize] = class;
             }
         }
-        for (i, &pixel) in queries.pixels.iter().enumerate() {
+        for (i, pixel) in queries.nodes.iter().map_while(|&node| visible.pixel_seen(node)).enumerate() {
             let other = embree.map(|e| e.occluded[i]);
             let judged = PixelVerdict::new(native.occluded[i], other, verdict.truth[i]);
             pixels[pixel as usize] = (judged, verdict.touching[i]);

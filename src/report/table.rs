@@ -2,6 +2,7 @@
 
 use super::validation::{TesterReport, Totals, Validation, WrongPixel};
 use crate::film::grouped;
+use crate::shading::TreeStatistics;
 use crate::shadow::{Counters, testers};
 use crate::verdict::{Cause, TesterRun};
 use crate::visibility::FirstHits;
@@ -131,10 +132,24 @@ fn causes_of(tester: &TesterReport) -> Option<String> {
 }
 
 /// What was built and what every tester did, for `--stats`: runs with the name of their light.
-pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a TesterRun)>) -> String {
+pub fn statistics<'a>(
+    hits: &FirstHits,
+    trees: &TreeStatistics,
+    runs: impl Iterator<Item = (&'a str, &'a TesterRun)>,
+) -> String {
     let mut text = String::new();
     let rays = hits.size.pixels() as u64;
-    let _ = writeln!(text, "t-buffer: {} rays, {} ray-triangle tests", grouped(rays), grouped(hits.tests));
+    let _ = writeln!(text, "t-buffer: {} rays, {} ray-primitive tests", grouped(rays), grouped(hits.tests));
+    let _ = writeln!(
+        text,
+        "ray trees: {} of {} eye rays hit, {} reflection and {} refraction rays, {} dropped, {:.2} nodes a tree",
+        grouped(trees.eye_hits),
+        grouped(trees.eye_rays),
+        grouped(trees.reflection_rays),
+        grouped(trees.refraction_rays),
+        grouped(trees.dropped),
+        trees.average_tree(),
+    );
     for (light, run) in runs {
         let a_query = |count: u64| count as f64 / run.occluded.len().max(1) as f64;
         let c = &run.counters;
@@ -142,7 +157,7 @@ pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a
         if *c == Counters::default() {
             continue;
         }
-        let _ = writeln!(
+        let _ = write!(
             text,
             "{light} {}: {:.2} tests, {:.2} lists entered, {:.4} full occlusions, {:.5} undecided, \
              {:.6} exact a query",
@@ -153,6 +168,10 @@ pub fn statistics<'a>(hits: &FirstHits, runs: impl Iterator<Item = (&'a str, &'a
             a_query(c.undecided),
             a_query(c.exact),
         );
+        if c.volume_tests > 0 {
+            let _ = write!(text, "; {:.2} bounding volumes", a_query(c.volume_tests));
+        }
+        text.push('\n');
         for (name, value) in &run.statistics {
             let _ = writeln!(text, "  {name}: {value}");
         }

@@ -1,9 +1,8 @@
 //! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
 
-use crate::shadow::Basis;
-use crate::verdict::{
-    ArbiterCheck, CauseCounts, LightVerdict, Queries, TesterCounts, TesterResult, VerdictCounts,
-};
+use crate::shadow::{Basis, Queries};
+use crate::verdict::{ArbiterCheck, CauseCounts, LightVerdict, TesterCounts, TesterResult, VerdictCounts};
+use crate::visibility::VisibleSurfaces;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -118,7 +117,13 @@ impl LightReport {
     pub const MOST_WRONG_PIXELS: usize = 100;
 
     /// The report on one light of an image of a width.
-    pub fn new(name: &str, width: u32, queries: &Queries, verdict: &LightVerdict) -> LightReport {
+    pub fn new(
+        name: &str,
+        width: u32,
+        visible: &VisibleSurfaces,
+        queries: &Queries,
+        verdict: &LightVerdict,
+    ) -> LightReport {
         let report = |t: &TesterResult| TesterReport {
             counts: t.counts,
             causes: t.causes,
@@ -134,18 +139,24 @@ impl LightReport {
             not_receiving: queries.not_receiving.len() as u64,
             testers: verdict.testers.iter().map(|t| (t.run.name, report(t))).collect(),
             verdicts: verdict.counts,
-            wrong_pixels: wrong_pixels(width, queries, verdict),
+            wrong_pixels: wrong_pixels(width, visible, queries, verdict),
             arbiter_check: None,
         }
     }
 }
 
-fn wrong_pixels(width: u32, queries: &Queries, verdict: &LightVerdict) -> Vec<WrongPixel> {
+fn wrong_pixels(
+    width: u32,
+    visible: &VisibleSurfaces,
+    queries: &Queries,
+    verdict: &LightVerdict,
+) -> Vec<WrongPixel> {
     let wrong = |i: usize| -> Option<WrongPixel> {
         let truth = verdict.truth[i];
         let testers: Vec<_> =
             verdict.testers.iter().filter(|t| t.run.occluded[i] != truth).map(|t| t.run.name).collect();
-        let pixel = [queries.pixels[i] % width, queries.pixels[i] / width];
+        let pixel = visible.pixel_seen(queries.nodes[i])?;
+        let pixel = [pixel % width, pixel / width];
         (!testers.is_empty()).then_some(WrongPixel { pixel, truth, testers })
     };
     (0..queries.points.len()).filter_map(wrong).take(LightReport::MOST_WRONG_PIXELS).collect()

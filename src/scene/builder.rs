@@ -177,6 +177,16 @@ impl SceneBuilder {
         self.scene.triangles.len()
     }
 
+    /// Curved surfaces so far.
+    pub fn curved_count(&self) -> usize {
+        self.scene.curved.len()
+    }
+
+    /// Says what rays that leave the scene see: linear Rec. 709, from 0.
+    pub fn set_background(&mut self, colour: [f32; 3]) {
+        self.scene.background = colour;
+    }
+
     /// Adds an object. Triangles with non-finite corners or of zero area are dropped and counted, and curved
     /// surfaces with a defect.
     ///

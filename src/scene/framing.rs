@@ -23,10 +23,17 @@ const FLOOR_RADII: f32 = 6.0;
 /// objects stay.
 ///
 /// # Errors
-/// [`Error::Usage`] if the scene has no triangle, or is so large that what is added would not be finite.
+/// [`Error::Usage`] if something is missing and the scene holds nothing that has an end, or is so large that
+/// what is added would not be finite.
 pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
-    let (low, high) =
-        scene.bounds().ok_or_else(|| Error::Usage(format!("{}: the scene has no triangles", scene.name)))?;
+    if !scene.cameras.is_empty() && !scene.lights.is_empty() {
+        return Ok(Vec::new());
+    }
+    let endless = || {
+        let why = "nothing in it has an end, so that it needs a camera and a light of its own";
+        Error::Usage(format!("{}: {why}", scene.name))
+    };
+    let (low, high) = scene.bounds().ok_or_else(endless)?;
     let centre = (low * 0.5) + (high * 0.5);
     // Squares of f32 lengths overflow from 1e19 on and vanish below 1e-22.
     let diagonal = (high.as_dvec3() - low.as_dvec3()).length();

@@ -98,6 +98,9 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Cameras, in the order of the file; may be empty before [`frame`].
     pub cameras: Vec<Camera>,
+    /// What rays that leave the scene see, linear Rec. 709, each channel from 0. In a picture, where the camera
+    /// sees nothing, alpha is 0 and so is the colour.
+    pub background: [f32; 3],
     /// Primitives that were left out, and why.
     pub dropped: Dropped,
     /// What the file asks for and is not drawn, a line each.
@@ -117,6 +120,7 @@ impl Scene {
             alpha_masks: Vec::new(),
             lights: Vec::new(),
             cameras: Vec::new(),
+            background: [0.0; 3],
             dropped: Dropped::default(),
             warnings: Vec::new(),
         }

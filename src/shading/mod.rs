@@ -7,9 +7,11 @@
 mod light;
 mod normal;
 mod picture;
+mod ray_tree;
 mod shade;
 
 pub use light::{LightSample, sample_light};
 pub use normal::{geometric_normal, normal_at, shading_normal};
 pub use picture::{ShadedPoint, shade_picture};
+pub use ray_tree::{Branch, Kind, RayForest, TreeStatistics, USUAL_DEPTH, branches, reflected, refracted};
 pub use shade::{Ambient, shade};

@@ -43,7 +43,7 @@ impl Ambient {
 /// `diffuse * ambient + sum of I * (diffuse * N.L + specular * (R.V)^shininess)`
 ///
 /// where `R` is `L` mirrored in `N`. The division by pi makes a white Lambert surface reflect all that it
-/// receives, as glTF has it. A light behind the shading normal adds nothing.
+/// receives, as glTF has it. A light behind the shading normal adds nothing, unless the surface lets light through.
 pub fn shade(
     material: &Material,
     normal: DVec3,
@@ -54,11 +54,14 @@ pub fn shade(
     let from_everywhere = ambient.at(normal);
     let mut radiance: [f64; 3] = std::array::from_fn(|i| f64::from(material.diffuse[i]) * from_everywhere[i]);
     for light in lights {
-        let lambert = normal.dot(light.towards);
+        let cosine = normal.dot(light.towards);
+        // What shines through from behind is scattered as evenly as what shines from the front.
+        let lambert = if material.transmission.is_some() { cosine.abs() } else { cosine };
         if lambert <= 0.0 {
             continue;
         }
-        let highlight = phong(material, normal, view, light.towards, lambert);
+        let highlight =
+            if cosine > 0.0 { phong(material, normal, view, light.towards, lambert) } else { 0.0 };
         for (i, channel) in radiance.iter_mut().enumerate() {
             let reflected =
                 f64::from(material.diffuse[i]) * lambert + f64::from(material.specular[i]) * highlight;

@@ -1,4 +1,4 @@
-//! Every triangle for every query: the classical tracer of the 2004 paper, with the native predicates.
+//! Every primitive for every query: the classical tracer of the 2004 paper, with the native predicates.
 
 use super::precise::{self, crossings_of, is_there};
 use super::{Basis, BuildInput, Casters, Counters, Crossings, SceneIndex, ShadowTester, TesterEntry};
@@ -8,6 +8,7 @@ use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
+use std::ops::Range;
 
 /// `brute-force` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -21,7 +22,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
 pub struct BruteForce<'a> {
     scene: &'a Scene,
     index: &'a SceneIndex,
-    casters: Casters,
+    pub(super) casters: Casters,
     instruction_set: InstructionSet,
 }
 
@@ -46,66 +47,68 @@ impl<'a> BruteForce<'a> {
         lanes.fold(0, |lanes, (i, _)| lanes | 1 << i)
     }
 
-    /// Those of the lanes that no curved surface blocks.
-    fn not_behind_curved(&self, points: &[SurfacePoint], mut live: u16, counters: &mut Counters) -> u16 {
-        if self.index.curved.is_empty() {
-            return live;
-        }
-        for (i, point) in points.iter().enumerate() {
-            if live >> i & 1 == 0 {
-                continue;
-            }
-            let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
-            let blocks = |&p: &PrimitiveIndex| {
-                counters.tests += 1;
-                precise::blocks(self.scene, p, point, &query, counters)
-            };
-            if self.index.curved.iter().any(blocks) {
-                live &= !(1 << i);
-            }
-        }
-        live
-    }
-
-    fn answer_batch(&self, points: &[SurfacePoint], answers: &mut [bool], counters: &mut Counters) {
+    /// At most sixteen points, to be asked about again and again.
+    pub(super) fn batch<'p>(&self, points: &'p [SurfacePoint]) -> Batch<'p> {
         let relative: Vec<LightPoint> =
             points.iter().map(|p| LightPoint::new(&self.casters.space, p.position)).collect();
-        let batch = PointBatch::new(&relative);
-        let mut live = (u32::MAX >> (32 - points.len())) as u16;
-        let mut start = 0;
-        while let Some(stop) = batch.scan(self.instruction_set, &self.casters.planes, start, live) {
+        Batch { points, lanes: PointBatch::new(&relative), all: (u32::MAX >> (32 - points.len())) as u16 }
+    }
+
+    /// Those of the `live` points that some of the casters in a range block, a bit each.
+    pub(super) fn blocked(
+        &self,
+        batch: &Batch,
+        casters: Range<usize>,
+        mut live: u16,
+        counters: &mut Counters,
+    ) -> u16 {
+        let asked = live;
+        let mut start = casters.start;
+        let planes = &self.casters.planes[..casters.end];
+        while let Some(stop) = batch.lanes.scan(self.instruction_set, planes, start, live) {
             counters.tests += (stop.index + 1 - start) as u64 * u64::from(live.count_ones());
             start = stop.index + 1;
             let primitive = self.casters.primitives[stop.index];
-            let mut blocked = self.there(stop.blocked, primitive, points);
-            for (i, point) in points.iter().enumerate().filter(|(i, _)| stop.undecided >> i & 1 == 1) {
-                // The base surface cannot block its own point (row 15 of the notes on the 1986 paper).
-                if point.primitive() == Some(primitive) {
+            let mut blocked = self.there(stop.blocked, primitive, batch.points);
+            for (i, point) in batch.points.iter().enumerate().filter(|(i, _)| stop.undecided >> i & 1 == 1) {
+                // A triangle cannot block its own points (row 15 of the notes on the 1986 paper).
+                let is_curved = self.scene.is_curved(primitive);
+                if point.primitive() == Some(primitive) && !is_curved {
                     continue;
                 }
-                counters.undecided += 1;
+                counters.undecided += u64::from(!is_curved);
                 let query =
                     PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
-                blocked |= u16::from(precise::blocks(self.scene, primitive, point, &query, counters)) << i;
+                let base = point.primitive();
+                blocked |= u16::from(precise::blocks(self.scene, primitive, base, &query, counters)) << i;
             }
             live &= !blocked;
             if live == 0 {
-                break;
+                return asked;
             }
         }
-        counters.tests += (self.casters.planes.len() - start) as u64 * u64::from(live.count_ones());
-        live = self.not_behind_curved(points, live, counters);
-        for (i, answer) in answers.iter_mut().enumerate() {
-            *answer = live >> i & 1 == 0;
-        }
+        counters.tests += (casters.end - start) as u64 * u64::from(live.count_ones());
+        asked & !live
     }
+}
+
+/// Points that are asked about together.
+pub(super) struct Batch<'p> {
+    points: &'p [SurfacePoint],
+    lanes: PointBatch,
+    /// A bit for each point.
+    pub all: u16,
 }
 
 impl ShadowTester for BruteForce<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
         let mut counters = Counters::default();
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
-            self.answer_batch(points, answers, &mut counters);
+            let batch = self.batch(points);
+            let blocked = self.blocked(&batch, 0..self.casters.planes.len(), batch.all, &mut counters);
+            for (i, answer) in answers.iter_mut().enumerate() {
+                *answer = blocked >> i & 1 == 1;
+            }
         }
         Ok(counters)
     }
@@ -116,7 +119,8 @@ impl ShadowTester for BruteForce<'_> {
             let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
             let mut crossed = Vec::new();
             for &primitive in &self.index.transparent {
-                let times = crossings_of(self.scene, primitive, point, &query, &mut counters);
+                let base = point.primitive();
+                let times = crossings_of(self.scene, primitive, base, &query, &mut counters);
                 crossed.extend((0..times).map(|_| primitive));
             }
             crossings.push(crossed);

@@ -7,6 +7,8 @@ use std::ops::AddAssign;
 pub struct Counters {
     /// Primitives tested against a segment.
     pub tests: u64,
+    /// Bounding volumes tested against a segment.
+    pub volume_tests: u64,
     /// Cells looked up.
     pub cells: u64,
     /// Lists of which at least one record was read.
@@ -22,6 +24,7 @@ pub struct Counters {
 impl AddAssign for Counters {
     fn add_assign(&mut self, other: Counters) {
         self.tests += other.tests;
+        self.volume_tests += other.volume_tests;
         self.cells += other.cells;
         self.lists += other.lists;
         self.full_occlusions += other.full_occlusions;

@@ -1,22 +1,26 @@
 //! Debian's Embree as oracle and as rival.
 //!
 //! It traces a float ray from the rounded point towards the light, as a renderer would, so part of its
-//! error is the rounding of its input. `embree` is the oracle: a robust scene, the receiving triangle
-//! excluded by a filter. `embree-fast` is the rival as renderers run it: a fast scene, no filter, nothing
+//! error is the rounding of its input. `embree` is the oracle: a robust scene, the receiving primitive
+//! excluded. `embree-fast` is the rival as renderers run it: a fast scene, no filter, nothing
 //! between it and its speed. Every other [`EmbreeMode`] is a tester by its own name ([`MODES`]).
 //!
 //! The rays are made within the time that is taken, by the same code in the same portions for every mode.
+//! Curved surfaces are a user geometry of Embree's, met by the same rays in double precision (`ffi/README.md`).
+//! Transparent ones and transparent triangles block no ray.
+//!
 //! Each tester has a device and a scene of its own, so that what a mode takes to build is its own too.
 
-use super::{Basis, Build, BuildInput, Counters, ShadowTester, TesterEntry, TracedRay};
-use crate::embree::{
-    Device, EmbreeMode, HoleMask, HoleWrap, Holes, QueryOptions, Receiver, ShadowRay, TriangleScene,
-};
+mod casters;
+
+use super::{Basis, Build, BuildInput, Counters, Crossings, ShadowTester, TesterEntry, TracedRay};
+use crate::embree::{Device, EmbreeMode, EmbreeScene, QueryOptions, Receiver, ShadowRay};
 use crate::error::Result;
 use crate::geometry::LightPosition;
-use crate::scene::{AlphaMask, PrimitiveIndex, Scene, Triangle, Wrap};
-use crate::visibility::SurfacePoint;
+use crate::visibility::{PointSource, SurfacePoint};
+use casters::Casters;
 use glam::Vec3;
+use std::iter;
 use std::sync::LazyLock;
 
 /// `embree` in the registry.
@@ -65,95 +69,57 @@ fn in_range(direction: Vec3) -> (Vec3, f32) {
     ((direction.as_dvec3() / scale).as_vec3(), scale as f32)
 }
 
-/// Indices of all triangles among those that cast; [`ShadowRay::NO_TRIANGLE`] for the others.
-fn casting_indices(scene: &Scene) -> Vec<u32> {
-    let mut next = 0;
-    let index = |t: &Triangle| {
-        if !scene.objects[t.object as usize].shadowing.casts {
-            return ShadowRay::NO_TRIANGLE;
-        }
-        next += 1;
-        next - 1
-    };
-    scene.triangles.iter().map(index).collect()
-}
-
-/// The holes of all triangles that cast, if there are any.
-fn holes(scene: &Scene) -> Result<Option<Holes>> {
-    if scene.alpha_masks.is_empty() {
-        return Ok(None);
-    }
-    let wrap = |wrap: Wrap| match wrap {
-        Wrap::Repeat => HoleWrap::Repeat,
-        Wrap::MirroredRepeat => HoleWrap::MirroredRepeat,
-        Wrap::ClampToEdge => HoleWrap::ClampToEdge,
-    };
-    let mask = |mask: &AlphaMask| HoleMask {
-        size: [mask.width, mask.height],
-        wrap: mask.wrap.map(wrap),
-        there: mask.words().to_vec(),
-    };
-    let casting = (0..scene.triangles.len() as u32).filter(|&t| scene.object(t).shadowing.casts);
-    let (mask_of, coordinates) = casting
-        .map(|t| {
-            let mask = scene.material(t).coverage.mask().unwrap_or(Holes::NONE);
-            (mask, scene.masked(t).map_or([[0.0; 2]; 3], |masked| masked.coordinates))
-        })
-        .unzip();
-    Holes::new(mask_of, coordinates, scene.alpha_masks.iter().map(mask).collect()).map(Some)
-}
-
 /// The epsilon that renderers usually give it, as a share of the segment (pbrt's shadow epsilon). Where the
 /// light is infinitely far away, it is a share of the diameter of what casts, and at the near end only.
 pub const USUAL_EPSILON: f32 = 1e-4;
 
-/// Rays that are made and asked at a time, in every mode.
+/// Rays that are made and asked at a time, in every mode: so few that they stay in the first cache, and a multiple of
+/// every packet's width.
 const RAYS: usize = 256;
 
 /// An Embree scene and one light.
 pub struct Embree {
-    scene: TriangleScene,
+    scene: EmbreeScene,
     query: QueryOptions,
     light: LightPosition,
     epsilon: f32,
-    /// Index of each triangle of the scene among those that Embree has, if it does not have all.
-    casting: Option<Vec<u32>>,
+    casters: Casters,
     receiver: Receiver,
     /// Length of the segments of a light infinitely far away that the epsilon is a share of.
     diameter: f32,
 }
 
 impl Embree {
-    /// Builds Embree's hierarchy over all triangles that cast.
+    /// Builds Embree's hierarchy over everything that casts.
     ///
     /// # Errors
     /// A mode that this Embree lacks, or whatever it reports.
     pub fn new(input: &BuildInput, mode: EmbreeMode) -> Result<Embree> {
         let device = Device::new(input.embree.threads)?;
         mode.expect_in(&device)?;
-        let vertices: Vec<[f32; 3]> = input.scene.vertices.iter().map(|v| v.to_array()).collect();
-        let casts = |t: &&Triangle| input.scene.objects[t.object as usize].shadowing.casts;
-        let triangles: Vec<[u32; 3]> =
-            input.scene.triangles.iter().filter(casts).map(|t| t.vertices).collect();
-        let scene =
-            TriangleScene::with_holes(&device, &vertices, &triangles, holes(input.scene)?, mode.scene)?;
-        let casting = (triangles.len() < input.scene.triangles.len()).then(|| casting_indices(input.scene));
+        let scene = casters::build(&device, input.scene, mode.scene)?;
         let (low, high) = input.index.bounds;
         Ok(Embree {
             scene,
             query: mode.query,
             light: input.light,
             epsilon: input.embree.epsilon,
-            casting,
+            casters: Casters::new(input.scene),
             receiver: mode.scene.receiver,
             diameter: (high * 0.5 - low * 0.5).length() * 2.0,
         })
     }
 
     /// The ray for a point: not normalised, so that 1 is the light, unless that would be beyond Embree's range.
-    /// `None` for a point whose rounding is the light itself, which no ray can ask for.
+    /// `None` for a point whose rounding is the light itself, and for one beyond Embree's range, as planes without
+    /// end have: no ray can ask for those.
     fn ray(&self, point: &SurfacePoint) -> Option<TracedRay> {
         let origin = point.position.as_vec3();
+        // Triangles and what ends are in range as a whole.
+        let is_curved = matches!(point.source, PointSource::OnCurved { .. });
+        if is_curved && !ShadowRay::is_in_range(origin.to_array()) {
+            return None;
+        }
         let (direction, t_near, t_far, t_light) = match self.light {
             LightPosition::At(light) => {
                 let (direction, scale) = in_range(light - origin);
@@ -173,6 +139,15 @@ impl Embree {
         is_direction.then_some(TracedRay { origin, direction, t_near, t_far, t_light, excluded })
     }
 
+    /// The rays for as many points as there is room for at most; an empty one where there is none.
+    fn shadow_rays<'a>(&self, points: &[SurfacePoint], room: &'a mut [ShadowRay; RAYS]) -> &'a [ShadowRay] {
+        let rays = &mut room[..points.len()];
+        for (ray, point) in rays.iter_mut().zip(points) {
+            *ray = self.shadow_ray(point).unwrap_or(ShadowRay::EMPTY);
+        }
+        rays
+    }
+
     /// The same as Embree is told.
     fn shadow_ray(&self, point: &SurfacePoint) -> Option<ShadowRay> {
         let ray = self.ray(point)?;
@@ -181,26 +156,34 @@ impl Embree {
             t_near: ray.t_near,
             direction: ray.direction.to_array(),
             t_far: ray.t_far,
-            excluded: ray.excluded.map_or(ShadowRay::NO_TRIANGLE, |primitive| self.index_of(primitive)),
+            excluded: ray.excluded.map_or(ShadowRay::NO_PRIMITIVE, |p| self.casters.index_of(p)),
         })
-    }
-
-    /// Embree's index of a triangle of the scene.
-    fn index_of(&self, primitive: PrimitiveIndex) -> u32 {
-        self.casting.as_ref().map_or(primitive, |casting| casting[primitive as usize])
     }
 }
 
 impl ShadowTester for Embree {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        // So few rays that they stay in the first cache, and a multiple of every packet's width.
         let mut rays = [ShadowRay::EMPTY; RAYS];
         for (points, answers) in points.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            let rays = &mut rays[..points.len()];
-            for (ray, point) in rays.iter_mut().zip(points) {
-                *ray = self.shadow_ray(point).unwrap_or(ShadowRay::EMPTY);
-            }
+            let rays = self.shadow_rays(points, &mut rays);
             self.scene.occluded(rays, self.query, answers)?;
+        }
+        Ok(Counters::default())
+    }
+
+    fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        let (mut rays, mut found) = ([ShadowRay::EMPTY; RAYS], Vec::new());
+        for points in points.chunks(RAYS) {
+            let rays = self.shadow_rays(points, &mut rays);
+            self.scene.crossed(rays, self.query, &mut found)?;
+            let mut rest = found.iter().peekable();
+            for ray in 0..rays.len() as u32 {
+                let of_ray = iter::from_fn(|| rest.next_if(|crossing| crossing.ray == ray));
+                crossings.push(of_ray.flat_map(|crossing| {
+                    let primitive = self.casters.primitive(crossing.primitive);
+                    iter::repeat_n(primitive, crossing.times as usize)
+                }));
+            }
         }
         Ok(Counters::default())
     }

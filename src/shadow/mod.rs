@@ -4,6 +4,7 @@
 //! segment between them. Surfaces that face away from the light are dark before any tester is asked
 //! ([`facing`]).
 
+pub mod bounding_volumes;
 pub mod brute_force;
 mod counters;
 mod crossings;
@@ -13,6 +14,7 @@ pub mod exact;
 pub mod facing;
 pub mod light_buffer;
 mod precise;
+mod queries;
 mod registry;
 mod scene_index;
 mod solids;
@@ -21,6 +23,7 @@ mod traced_ray;
 pub use counters::Counters;
 pub use crossings::Crossings;
 pub use precise::{blocks, crossings_of, is_there};
+pub use queries::Queries;
 pub use registry::{Basis, Build, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find, testers};
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};
@@ -81,6 +84,17 @@ pub enum Culling {
     Off,
     /// The far sides of closed solids that the light is outside of are left out.
     ClosedSolids,
+}
+
+/// When the light buffer puts the polygons of one object in a cell's list behind a bounding-volume record
+/// (row 8 of the notes on the 1986 paper). No answer depends on it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum VolumeThreshold {
+    /// Never.
+    #[default]
+    Off,
+    /// When the list holds more of them than this; the paper says 6.
+    MoreThan(u32),
 }
 
 /// Cells along the edge of a cube face.

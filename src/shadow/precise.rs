@@ -5,13 +5,12 @@ use crate::geometry::ExactPosition;
 use crate::geometry::curved::Base;
 use crate::geometry::occlusion::{PreciseQuery, Stage};
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
-use crate::visibility::SurfacePoint;
 
-/// Whether a primitive blocks the open segment between a point and the light (TRUTH, "Occluded").
+/// Whether a primitive blocks the open segment between a point on `base` and the light (TRUTH, "Occluded").
 pub fn blocks<F: Fn() -> ExactPosition>(
     scene: &Scene,
     primitive: PrimitiveIndex,
-    point: &SurfacePoint,
+    base: Option<PrimitiveIndex>,
     query: &PreciseQuery<F>,
     counters: &mut Counters,
 ) -> bool {
@@ -19,7 +18,7 @@ pub fn blocks<F: Fn() -> ExactPosition>(
         // A point is never strictly behind the plane that it lies in.
         Primitive::Triangle(corners) => query.blocks(corners),
         Primitive::Curved(shape) => {
-            let (meetings, stage) = query.meets(shape, base(primitive, point));
+            let (meetings, stage) = query.meets(shape, own_or_other(primitive, base));
             (meetings.any(), stage)
         }
     };
@@ -32,19 +31,19 @@ pub fn blocks<F: Fn() -> ExactPosition>(
 pub fn crossings_of<F: Fn() -> ExactPosition>(
     scene: &Scene,
     primitive: PrimitiveIndex,
-    point: &SurfacePoint,
+    base: Option<PrimitiveIndex>,
     query: &PreciseQuery<F>,
     counters: &mut Counters,
 ) -> u8 {
     counters.tests += 1;
     let (crossings, stage) = match scene.primitive(primitive) {
-        Primitive::Triangle(_) if point.primitive() == Some(primitive) => (0, Stage::Double),
+        Primitive::Triangle(_) if base == Some(primitive) => (0, Stage::Double),
         Primitive::Triangle(corners) => {
             let (crosses, stage) = query.crosses(corners);
             (u8::from(crosses && is_there(scene, primitive, query)), stage)
         }
         Primitive::Curved(shape) => {
-            let (meetings, stage) = query.meets(shape, base(primitive, point));
+            let (meetings, stage) = query.meets(shape, own_or_other(primitive, base));
             (meetings.crossings, stage)
         }
     };
@@ -53,8 +52,8 @@ pub fn crossings_of<F: Fn() -> ExactPosition>(
 }
 
 /// Whether a point lies on a primitive.
-fn base(primitive: PrimitiveIndex, point: &SurfacePoint) -> Base {
-    if point.primitive() == Some(primitive) { Base::Own } else { Base::Other }
+fn own_or_other(primitive: PrimitiveIndex, base: Option<PrimitiveIndex>) -> Base {
+    if base == Some(primitive) { Base::Own } else { Base::Other }
 }
 
 /// Whether a primitive that blocks a segment is there where that passes through it, and not a hole of its

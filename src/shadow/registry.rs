@@ -1,6 +1,9 @@
 //! Every shadow tester there is. A tester that is not here is not cross-checked, and a test says so.
 
-use super::{Culling, Receivers, Resolution, SceneIndex, ShadowTester, brute_force, exact, light_buffer};
+use super::{
+    Culling, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold, bounding_volumes, brute_force,
+    exact, light_buffer,
+};
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::MemoryLimit;
@@ -32,6 +35,8 @@ pub struct BuildInput<'a> {
     pub receivers: Receivers,
     /// What may be left out.
     pub culling: Culling,
+    /// When lists of cells get bounding-volume records.
+    pub bounding_volumes: VolumeThreshold,
     /// Embree's settings.
     pub embree: EmbreeSettings,
     /// The most memory that it may need.
@@ -49,6 +54,7 @@ impl<'a> BuildInput<'a> {
             resolution: Resolution::Auto,
             receivers: Receivers::Surfaces,
             culling: Culling::Off,
+            bounding_volumes: VolumeThreshold::Off,
             embree: EmbreeSettings::default(),
             memory: MemoryLimit::NONE,
         }
@@ -91,6 +97,7 @@ pub struct TesterEntry {
 pub const REGISTRY: &[TesterEntry] = &[
     exact::ENTRY,
     brute_force::ENTRY,
+    bounding_volumes::ENTRY,
     light_buffer::ENTRY,
     #[cfg(feature = "embree")]
     super::embree::ROBUST,

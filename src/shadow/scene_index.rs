@@ -91,11 +91,12 @@ fn key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
     corners
 }
 
-/// Casting triangles as one light sees them; those whose plane holds the light are left out.
+/// What casts as one light sees it: first triangles, without those whose plane holds the light, then curved
+/// surfaces. The float filter leaves tests of the latter undecided, so that they need no path of their own.
 pub struct Casters {
     /// Planes of each caster.
     pub planes: Vec<LightTriangle>,
-    /// Its triangle in the scene.
+    /// Its primitive in the scene.
     pub primitives: Vec<PrimitiveIndex>,
     /// What the planes are relative to.
     pub space: LightSpace,
@@ -107,18 +108,37 @@ impl Casters {
         Casters::some(scene, index, light, &index.casting)
     }
 
-    /// Some of the triangles that cast, relative to a light.
+    /// Some of the triangles that block, and all curved surfaces that do, relative to a light.
     pub fn some(
         scene: &Scene,
         index: &SceneIndex,
         light: LightPosition,
         casting: &[PrimitiveIndex],
     ) -> Casters {
+        Casters::of(scene, index, light, casting, &index.curved)
+    }
+
+    /// All transparent primitives that cast, relative to a light.
+    pub fn transparent(scene: &Scene, index: &SceneIndex, light: LightPosition) -> Casters {
+        let first_curved = index.transparent.partition_point(|&p| !scene.is_curved(p));
+        let (triangles, curved) = index.transparent.split_at(first_curved);
+        Casters::of(scene, index, light, triangles, curved)
+    }
+
+    fn of(
+        scene: &Scene,
+        index: &SceneIndex,
+        light: LightPosition,
+        triangles: &[PrimitiveIndex],
+        curved: &[PrimitiveIndex],
+    ) -> Casters {
         let space = LightSpace::new(light, index.bounds);
-        let (planes, primitives) = casting
+        let (mut planes, mut primitives): (Vec<_>, Vec<_>) = triangles
             .par_iter()
             .filter_map(|&primitive| Some((LightTriangle::new(&space, scene.corners(primitive))?, primitive)))
             .unzip();
+        planes.resize(planes.len() + curved.len(), LightTriangle::UNDECIDED);
+        primitives.extend_from_slice(curved);
         Casters { planes, primitives, space }
     }
 

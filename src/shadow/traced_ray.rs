@@ -17,6 +17,8 @@ pub struct TracedRay {
     pub t_far: f32,
     /// Where the light is; infinite for one infinitely far away.
     pub t_light: f32,
-    /// The triangle that never blocks it, if one is excluded.
+    /// The primitive that it starts on, if that is excluded: a flat one never blocks it. A curved one, taken as passing
+    /// through the origin, blocks it where the line meets it for the other time: with a t^2 + b t + c on the line,
+    /// at t = -b / a.
     pub excluded: Option<PrimitiveIndex>,
 }

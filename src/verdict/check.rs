@@ -1,8 +1,8 @@
 //! The arbiter itself, checked against the plain definition in integers.
 
-use super::Queries;
 use crate::geometry::LightPosition;
 use crate::scene::Scene;
+use crate::shadow::Queries;
 use crate::shadow::exact::Occlusion;
 use crate::shadow::exact::plain::PlainTest;
 use crate::visibility::SurfacePoint;

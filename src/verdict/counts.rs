@@ -1,6 +1,11 @@
 //! What a tester got right and wrong, and how two of them share the blame.
 
+use crate::shadow::Crossings;
 use std::ops::AddAssign;
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
 
 /// A tester's answers against the truth.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
@@ -11,7 +16,11 @@ pub struct TesterCounts {
     pub false_shadow: u64,
     /// Points that it calls lit and that are occluded.
     pub false_light: u64,
-    /// False shadows and false lights.
+    /// Points that it rightly calls lit, and is wrong about what transparent surfaces lie in the way. Left out
+    /// where there is none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub false_transmittance: u64,
+    /// All of these.
     pub wrong: u64,
     /// Tests that its float filter left undecided.
     pub undecided: u64,
@@ -29,6 +38,20 @@ impl TesterCounts {
         counts.wrong = counts.false_shadow + counts.false_light;
         counts
     }
+
+    /// Adds queries that are rightly called lit where the transparent surfaces in the way are others.
+    pub fn count_transmittances(
+        &mut self,
+        answers: &[bool],
+        found: &Crossings,
+        truth: &[bool],
+        crossed: &Crossings,
+    ) {
+        let lit = (0..answers.len()).filter(|&i| !answers[i] && !truth[i]);
+        let wrong = lit.filter(|&i| found.of(i) != crossed.of(i)).count() as u64;
+        self.false_transmittance += wrong;
+        self.wrong += wrong;
+    }
 }
 
 impl AddAssign for TesterCounts {
@@ -36,6 +59,7 @@ impl AddAssign for TesterCounts {
         self.shadowed += other.shadowed;
         self.false_shadow += other.false_shadow;
         self.false_light += other.false_light;
+        self.false_transmittance += other.false_transmittance;
         self.wrong += other.wrong;
         self.undecided += other.undecided;
     }
@@ -75,7 +99,14 @@ mod tests {
         let counts = TesterCounts::new(&[true, false, true, false], &[false, true, true, false], 5);
         assert_eq!(
             counts,
-            TesterCounts { shadowed: 2, false_shadow: 1, false_light: 1, wrong: 2, undecided: 5 }
+            TesterCounts {
+                shadowed: 2,
+                false_shadow: 1,
+                false_light: 1,
+                wrong: 2,
+                undecided: 5,
+                ..TesterCounts::default()
+            }
         );
     }
 }

@@ -1,10 +1,10 @@
 //! Every tester over the queries of one light, against the arbiter.
 
-use super::{Cause, CauseCounts, Queries, TesterCounts, VerdictCounts};
+use super::{Cause, CauseCounts, TesterCounts, VerdictCounts};
 use crate::error::Result;
-use crate::measure::{Timed, answer, timed};
+use crate::measure::{Question, Timed, answer, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
-use crate::shadow::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
+use crate::shadow::{Basis, BuildInput, Counters, Crossings, Queries, ShadowTester, TesterEntry};
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 
@@ -17,6 +17,8 @@ pub struct TesterRun {
     pub basis: Basis,
     /// Whether each query is occluded.
     pub occluded: Vec<bool>,
+    /// What transparent surfaces the segment of each query crosses, if the scene has such that cast shadows.
+    pub crossings: Option<Crossings>,
     /// The work it took.
     pub counters: Counters,
     /// Seconds to build it.
@@ -27,6 +29,16 @@ pub struct TesterRun {
     pub bytes: usize,
     /// What was built, for `--stats`.
     pub statistics: Vec<(&'static str, String)>,
+}
+
+impl TesterRun {
+    /// Whether the segment of a query that is not occluded crosses other transparent surfaces than it says.
+    fn crosses_otherwise(&self, crossed: Option<&Crossings>, query: usize) -> bool {
+        match (&self.crossings, crossed) {
+            (Some(found), Some(crossed)) => found.of(query) != crossed.of(query) && !self.occluded[query],
+            _ => false,
+        }
+    }
 }
 
 /// A run and how it compares with the truth.
@@ -45,6 +57,8 @@ pub struct TesterResult {
 pub struct LightVerdict {
     /// Whether each query is occluded, exactly.
     pub truth: Vec<bool>,
+    /// What transparent surfaces the segment of each query crosses, if the scene has such that cast shadows.
+    pub crossed: Option<Crossings>,
     /// Whether each query is touching.
     pub touching: Vec<bool>,
     /// Testers in the order of the registry.
@@ -86,35 +100,72 @@ pub fn judge(
             .collect::<Vec<_>>()
     });
     let truth: Vec<bool> = decided.value.iter().map(|t| t.occlusion == Occlusion::Occluded).collect();
+    let crossed = match Question::of(input.scene) {
+        Question::Occlusion => None,
+        Question::OcclusionAndCrossings => Some(crossings_of(&arbiter.value, points, &truth)?),
+    };
     let touching: Vec<bool> = decided.value.iter().map(|t| t.contact == Contact::Touching).collect();
     for entry in entries {
         let (run, tester) = match entry.basis {
-            Basis::Truth => (truth_run(entry, &arbiter, &truth, decided.seconds), None),
+            Basis::Truth => (truth_run(entry, &arbiter, &truth, crossed.as_ref(), decided.seconds), None),
             _ => {
                 let (run, tester) = ask(entry, input, queries, progress)?;
                 (run, Some(tester))
             }
         };
-        let counts = TesterCounts::new(&run.occluded, &truth, run.counters.undecided);
+        let mut counts = TesterCounts::new(&run.occluded, &truth, run.counters.undecided);
+        if let (Some(found), Some(crossed)) = (&run.crossings, &crossed) {
+            counts.count_transmittances(&run.occluded, found, &truth, crossed);
+        }
         let causes = tester.and_then(|t| causes(t.as_ref(), &arbiter.value, points, &run.occluded, &truth));
         testers.push(TesterResult { run, counts, causes });
     }
-    let counts = verdicts(&truth, &touching, &testers);
-    Ok(LightVerdict { truth, touching, testers, counts })
+    let counts = verdicts(&truth, crossed.as_ref(), &touching, &testers);
+    Ok(LightVerdict { truth, crossed, touching, testers, counts })
 }
 
 /// The arbiter's own row.
-fn truth_run(entry: &TesterEntry, arbiter: &Timed<Arbiter>, truth: &[bool], seconds: f64) -> TesterRun {
+fn truth_run(
+    entry: &TesterEntry,
+    arbiter: &Timed<Arbiter>,
+    truth: &[bool],
+    crossed: Option<&Crossings>,
+    seconds: f64,
+) -> TesterRun {
     TesterRun {
         name: entry.name,
         basis: entry.basis,
         occluded: truth.to_vec(),
+        crossings: crossed.cloned(),
         counters: Counters::default(),
         build_seconds: arbiter.seconds,
         ns_per_query: per_query(seconds, truth.len()),
         bytes: arbiter.value.bytes(),
         statistics: Vec::new(),
     }
+}
+
+/// The truth about what segments cross.
+fn crossings_of(arbiter: &Arbiter, points: &[SurfacePoint], occluded: &[bool]) -> Result<Crossings> {
+    const CHUNK: usize = 1024;
+    let chunks = points.par_chunks(CHUNK).zip(occluded.par_chunks(CHUNK));
+    let found: Vec<Crossings> = chunks
+        .map(|(points, occluded)| {
+            let mut crossings = Crossings::default();
+            for (point, &occluded) in points.iter().zip(occluded) {
+                match occluded {
+                    true => crossings.push([]),
+                    false => {
+                        ShadowTester::crossed(arbiter, std::slice::from_ref(point), &mut crossings)?;
+                    }
+                }
+            }
+            Ok(crossings)
+        })
+        .collect::<Result<_>>()?;
+    let mut all = Crossings::default();
+    found.iter().for_each(|crossings| all.append(crossings));
+    Ok(all)
 }
 
 /// What a tester's wrong answers are put down to; `None` if it traces no float rays.
@@ -158,11 +209,13 @@ fn ask<'a>(
     progress.stage(entry.name);
     let built = timed(|| (entry.build)(input));
     let tester = built.value?;
-    let answers = answer(tester.as_ref(), &queries.points, &|n| progress.advance(n))?;
+    let question = Question::of(input.scene);
+    let answers = answer(tester.as_ref(), &queries.points, question, &|n| progress.advance(n))?;
     let run = TesterRun {
         name: entry.name,
         basis: entry.basis,
         occluded: answers.occluded,
+        crossings: answers.crossings,
         counters: answers.counters,
         build_seconds: built.seconds,
         ns_per_query: per_query(answers.seconds, queries.points.len()),
@@ -184,13 +237,19 @@ fn per_query(seconds: f64, queries: usize) -> f64 {
     if queries == 0 { 0.0 } else { seconds * 1e9 / queries as f64 }
 }
 
-fn verdicts(truth: &[bool], touching: &[bool], testers: &[TesterResult]) -> VerdictCounts {
+fn verdicts(
+    truth: &[bool],
+    crossed: Option<&Crossings>,
+    touching: &[bool],
+    testers: &[TesterResult],
+) -> VerdictCounts {
     let native: Vec<_> = testers.iter().filter(|t| t.run.basis == Basis::Exact).collect();
     let embree = testers.iter().find(|t| t.run.name == "embree");
     let mut counts = VerdictCounts::default();
     for (i, &truth) in truth.iter().enumerate() {
-        let native_wrong = native.iter().any(|t| t.run.occluded[i] != truth);
-        let embree_wrong = embree.is_some_and(|t| t.run.occluded[i] != truth);
+        let is_wrong = |t: &TesterResult| t.run.occluded[i] != truth || t.run.crosses_otherwise(crossed, i);
+        let native_wrong = native.iter().any(|&t| is_wrong(t));
+        let embree_wrong = embree.is_some_and(is_wrong);
         match (native_wrong, embree_wrong) {
             (false, false) => counts.agree += 1,
             (true, false) => counts.native_wrong += 1,

@@ -10,4 +10,4 @@ pub use cause::{Cause, CauseCounts};
 pub use check::{ArbiterCheck, check_arbiter};
 pub use counts::{TesterCounts, VerdictCounts};
 pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, run_tester};
-pub use maps::{PixelVerdict, Queries};
+pub use maps::PixelVerdict;

@@ -1,7 +1,9 @@
 //! The nearest of several hits, by a rule that knows no order of objects.
 
 use crate::geometry::curved::{Crossing, ExactParameter, RayStart};
+use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::ray_triangle::{self, RayParameter, RayTriangle};
+use crate::geometry::{ExactPosition, LightPosition, LightSpace};
 use crate::scene::{ImageSize, Primitive, PrimitiveIndex, Scene};
 use glam::Vec3;
 use std::cmp::Ordering;
@@ -65,6 +67,21 @@ pub(super) fn is_there(
 ) -> bool {
     scene.masked(primitive).is_none_or(|masked| {
         masked.is_there(triangle.texels(scene.corners(primitive), direction, &masked.axes()))
+    })
+}
+
+/// The same for a ray from anywhere on its line.
+pub(super) fn is_there_beyond(
+    scene: &Scene,
+    primitive: PrimitiveIndex,
+    origin: Vec3,
+    direction: Vec3,
+) -> bool {
+    scene.masked(primitive).is_none_or(|masked| {
+        // The rest of the line towards a light infinitely far away passes through the same texel.
+        let space = LightSpace::new(LightPosition::Towards(-direction), (origin, origin));
+        let query = PreciseQuery::new(&space, origin.as_dvec3(), || ExactPosition::Bare(origin));
+        masked.is_there(query.texels(scene.corners(primitive), &masked.axes()))
     })
 }
 

@@ -2,6 +2,7 @@
 
 pub mod classical;
 mod curved_cast;
+pub mod hierarchy;
 mod hit;
 mod surface_point;
 pub mod t_buffer;

@@ -94,6 +94,14 @@ impl SurfacePoint {
         }
     }
 
+    /// The direction of the ray that found it, not normalised.
+    pub fn direction(&self) -> Option<Vec3> {
+        match self.source {
+            PointSource::Ray { direction, .. } | PointSource::OnCurved { direction, .. } => Some(direction),
+            PointSource::Bare => None,
+        }
+    }
+
     /// The primitive it lies on, if any: the base surface of the 1986 paper.
     pub fn primitive(&self) -> Option<PrimitiveIndex> {
         match self.source {
@@ -103,13 +111,16 @@ impl SurfacePoint {
     }
 }
 
-/// The visible points of an image, pixel by pixel in rows from the top.
+/// The points that show in an image: first those that the camera sees, pixel by pixel in rows from the top, then
+/// perhaps those that it sees in mirrors and through glass.
 #[derive(Debug, Clone)]
 pub struct VisibleSurfaces {
-    /// One entry for each pixel that sees a primitive.
+    /// One entry for each ray that hits a primitive.
     pub points: Vec<SurfacePoint>,
-    /// The pixel of each point: row * width + column.
+    /// The pixel that each point shows in: row * width + column.
     pub pixels: Vec<u32>,
+    /// How many of them the camera sees itself.
+    pub seen: usize,
 }
 
 impl VisibleSurfaces {
@@ -127,7 +138,13 @@ impl VisibleSurfaces {
                 primitive.map(|p| (SurfacePoint::on_ray(scene, camera.origin, direction, p), pixel))
             })
             .unzip();
-        VisibleSurfaces { points, pixels }
+        let points: Vec<SurfacePoint> = points;
+        VisibleSurfaces { seen: points.len(), points, pixels }
+    }
+
+    /// The pixel of a point by its number, if the camera sees it itself.
+    pub fn pixel_seen(&self, point: u32) -> Option<u32> {
+        ((point as usize) < self.seen).then(|| self.pixels[point as usize])
     }
 }
 

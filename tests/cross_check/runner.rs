@@ -4,11 +4,11 @@ use crate::cases::Case;
 use lightbuffer::geometry::LightPosition;
 use lightbuffer::measure::answer;
 use lightbuffer::scene::Light;
+use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::light_buffer::LightBuffer;
 use lightbuffer::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
-use lightbuffer::verdict::Queries;
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
 /// Checksum of the masks of all cases, the same in every build profile.

@@ -5,15 +5,15 @@ use lightbuffer::embree::ShadowRay;
 /// The whole segment between two points; nothing excluded.
 pub fn segment(from: [f32; 3], to: [f32; 3]) -> ShadowRay {
     let direction = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-    ShadowRay { origin: from, t_near: 0.0, direction, t_far: 1.0, excluded: ShadowRay::NO_TRIANGLE }
+    ShadowRay { origin: from, t_near: 0.0, direction, t_far: 1.0, excluded: ShadowRay::NO_PRIMITIVE }
 }
 
 /// Numbers from a fixed sequence (SplitMix64).
-struct Numbers(u64);
+pub struct Numbers(pub u64);
 
 impl Numbers {
     /// From 0 to 1.
-    fn next(&mut self) -> f32 {
+    pub fn next(&mut self) -> f32 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -21,7 +21,7 @@ impl Numbers {
         ((z ^ (z >> 31)) >> 40) as f32 / (1 << 24) as f32
     }
 
-    fn point(&mut self) -> [f32; 3] {
+    pub fn point(&mut self) -> [f32; 3] {
         [self.next(), self.next(), self.next()]
     }
 }
@@ -60,6 +60,19 @@ pub struct Soup {
     pub blocked_without_excluded: Vec<bool>,
 }
 
+impl Soup {
+    /// Whether a segment crosses any of the triangles; `None` if it is too close to tell.
+    pub fn crossed_by(&self, from: [f32; 3], to: [f32; 3]) -> Option<bool> {
+        let each = (0..self.triangles.len()).map(|triangle| self.crossed_one(triangle, from, to));
+        each.collect::<Option<Vec<bool>>>().map(|crossings| crossings.contains(&true))
+    }
+
+    /// Whether a segment crosses this triangle; `None` if it is too close to tell.
+    pub fn crossed_one(&self, triangle: usize, from: [f32; 3], to: [f32; 3]) -> Option<bool> {
+        crosses(from, to, self.triangles[triangle].map(|i| self.vertices[i as usize]))
+    }
+}
+
 pub fn soup(triangle_count: u32, ray_count: usize) -> Soup {
     let mut numbers = Numbers(7);
     let mut vertices = Vec::new();
@@ -83,12 +96,12 @@ pub fn soup(triangle_count: u32, ray_count: usize) -> Soup {
         let first = crossings.iter().position(|&met| met);
         let excluded = match first {
             Some(first) if soup.rays.len().is_multiple_of(3) => first as u32,
-            _ => ShadowRay::NO_TRIANGLE,
+            _ => ShadowRay::NO_PRIMITIVE,
         };
         let ray = ShadowRay { excluded, ..segment(from, to) };
         soup.rays.push(ray);
         soup.blocked.push(met > 0);
-        let passed = usize::from(excluded != ShadowRay::NO_TRIANGLE);
+        let passed = usize::from(excluded != ShadowRay::NO_PRIMITIVE);
         soup.blocked_without_excluded.push(met > passed);
     }
     soup

@@ -3,7 +3,8 @@
 use crate::fixtures::Folder;
 use crate::{corners, warned};
 use glam::Vec3;
-use lightbuffer::scene::{Emitter, Falloff, ImageSize, Scene, formats};
+use lightbuffer::geometry::curved::Shape;
+use lightbuffer::scene::{Emitter, Falloff, ImageSize, Scene, Transmission, formats};
 use std::f32::consts::PI;
 
 fn load(text: &str) -> Scene {
@@ -25,7 +26,8 @@ fn a_whole_file_is_read() {
     let material = scene.material(0);
     assert_eq!(material.name, "fill-1");
     assert_eq!((material.diffuse, material.specular), ([0.5, 0.25, 0.125], [0.125; 3]));
-    assert_eq!(material.shininess, 20.0);
+    assert_eq!((material.shininess, material.mirror, material.transmission), (20.0, [0.125; 3], None));
+    assert_eq!(scene.background, [0.1, 0.2, 0.3]);
     let [camera] = &scene.cameras[..] else { panic!("one camera") };
     assert_eq!((camera.name.as_str(), camera.origin), ("view", Vec3::new(1.0, 2.0, 3.0)));
     assert_eq!((camera.forward, camera.right, camera.up), (Vec3::NEG_Z, Vec3::X, Vec3::Y));
@@ -62,6 +64,7 @@ fn polygons_between_two_fills_are_one_object() {
     let scene = load(&text);
     let objects: Vec<_> = scene.objects.iter().map(|object| (object.name.as_str(), object.count)).collect();
     assert_eq!(objects, [("fill-1", 2), ("fill-3", 1)]);
+    assert_eq!(scene.background, [0.0; 3]);
     assert_eq!(scene.material(0).diffuse, [1.0, 0.0, 0.0]);
     assert_eq!(scene.material(2).diffuse, [0.0, 0.0, 1.0]);
     assert!(scene.warnings.is_empty());
@@ -76,7 +79,7 @@ fn a_concave_polygon_is_filled_and_no_more() {
             ((b - a).cross(c - a).x * 0.5).abs()
         })
         .sum();
-    assert_eq!((scene.triangles.len(), area), (4, 3.0));
+    assert_eq!((scene.triangles.len(), scene.objects[0].polygons, area), (4, 1, 3.0));
 }
 
 #[test]
@@ -108,10 +111,9 @@ fn what_is_not_drawn_is_said_once() {
     assert_eq!(scene.material(0).name, "default");
     let clamped = scene.material(1);
     assert_eq!((clamped.diffuse, clamped.specular, clamped.shininess), ([1.0, 0.0, 1.0], [1.0; 3], 1.0));
-    warned(&scene, "transparent materials are drawn opaque (2 materials, the first `fill-2`)");
-    warned(&scene, "what comes before the first `f` is drawn grey (1 polygon)");
+    warned(&scene, "what comes before the first `f` is drawn grey (1 primitive)");
     warned(&scene, "polygons of fewer than three corners are not drawn (2 polygons)");
-    assert_eq!(warned(&scene, "outlines that cross themselves"), 4);
+    assert_eq!(warned(&scene, "outlines that cross themselves"), 3);
 }
 
 #[test]
@@ -150,4 +152,55 @@ fn viewpoints_are_cameras_in_the_order_of_the_file() {
 fn numbers_are_rounded_once() {
     let scene = load("p 3\n1.00000005960464477539063 0 0\n2 1 0\n2 0 0\n");
     assert_eq!(scene.vertices[0].x, 1.0f32.next_up());
+}
+
+#[test]
+fn spheres_and_cones_are_curved_primitives_of_their_fills() {
+    let text = format!(
+        "f 1 0 0 1 0 1 0 0\ns 1 2 3 0.5\n{TRIANGLE}c\n0 0 0 1\n0 0 1 1\n\
+         f 0 1 0 1 0 1 0 0\nc 0 0 0 0.25 0 0 1 0\np 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+    );
+    let scene = load(&text);
+    let shapes: Vec<Shape> = scene.curved.iter().map(|primitive| primitive.shape).collect();
+    let expected = [
+        Shape::sphere(Vec3::new(1.0, 2.0, 3.0), 0.5),
+        Shape::cylinder(Vec3::ZERO, Vec3::Z, 1.0),
+        Shape::cone(Vec3::ZERO, 0.25, Vec3::Z, 0.0),
+    ];
+    assert_eq!(shapes, expected);
+    let counts: Vec<_> =
+        scene.objects.iter().map(|o| (o.polygons, o.count, o.first_curved, o.curved_count)).collect();
+    assert_eq!(counts, [(1, 1, 0, 2), (1, 2, 2, 1)]);
+    assert_eq!(scene.primitive_count(), 6);
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+}
+
+#[test]
+fn a_scene_of_spheres_alone_is_one() {
+    let scene = load("s 0 0 0 1\n");
+    assert_eq!((scene.triangles.len(), scene.curved.len(), scene.objects[0].name.as_str()), (0, 1, "fill-0"));
+    assert_eq!(scene.bounds().unwrap().0.x, (-1.0f32).next_down());
+    assert_eq!(warned(&scene, "what comes before the first `f` is drawn grey (1 primitive)"), 1);
+}
+
+#[test]
+fn negative_radii_ask_for_the_inside_and_both_sides_are_drawn_anyway() {
+    let scene = load("s 0 0 0 -2\nc 0 0 0 -1 0 0 1 -0.5\nc 0 0 0 -1 0 0 1 0\nc 0 0 0 0 0 0 1 -3\n");
+    let shapes: Vec<Shape> = scene.curved.iter().map(|primitive| primitive.shape).collect();
+    let cone = |base: f32, apex: f32| Shape::cone(Vec3::ZERO, base, Vec3::Z, apex);
+    assert_eq!(shapes, [Shape::sphere(Vec3::ZERO, 2.0), cone(1.0, 0.5), cone(1.0, 0.0), cone(0.0, 3.0)]);
+}
+
+#[test]
+fn mirrors_and_transparent_materials() {
+    let text = "f 1 1 1 0.1 0.75 100000 0.5 1.5\ns 0 0 0 1\nf 1 1 1 1 7 1 1 1\ns 0 0 0 1\n\
+                f 1 1 1 1 0 1 0 -3\ns 0 0 0 1\n";
+    let scene = load(text);
+    let transmission =
+        |t: f32, refractive_index: f32| Some(Transmission { transmittance: [t; 3], refractive_index });
+    let of = |i: u32| (scene.material(i).mirror, scene.material(i).transmission);
+    assert_eq!(of(0), ([0.75; 3], transmission(0.5, 1.5)));
+    assert_eq!(of(1), ([1.0; 3], transmission(1.0, 1.0)));
+    assert_eq!(of(2), ([0.0; 3], None));
+    assert_eq!(scene.material(0).specular, [0.75; 3]);
 }

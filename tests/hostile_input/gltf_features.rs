@@ -187,7 +187,7 @@ fn morph_targets_that_do_not_fit() {
     );
     spoilt(
         morphed(|_| json!({ "POSITION": 0 }), json!([1e300])),
-        &["expected at least one triangle, found 1 of zero area or with non-finite corners"],
+        &["expected at least one triangle, found 1 of zero area or with numbers that are not finite"],
     );
 }
 

@@ -102,7 +102,7 @@ const PLY: &str = "ply\nformat ascii 1.0\ncomment ours\nelement vertex 5\nproper
 
 const NFF: &str = "# remark\nb 0 0 0\nv\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 9 9\nl 4 3 2\n\
     l 1 -4 4 1 0.5 0\nf 1 0.5 0 0.8 0.2 10 0 1\np 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nf 0 1 0 1 0 1 0.5 1.3\npp 4\n0 0 0 0 0 1\n\
-    1 0 0 0 0 1\n0.5 0.2 0 0 1 0\n0 1 0 0 0 1\np 3\n0 0 1\n1 0 1\n0 1 1\n";
+    1 0 0 0 0 1\n0.5 0.2 0 0 1 0\n0 1 0 0 0 1\np 3\n0 0 1\n1 0 1\n0 1 1\ns 1 2 3 0.5\nc 0 0 0 1\n0 0 1 -0\n";
 
 const TOML: &str = "version = 1\n[[include]]\npath = 'part.obj'\nmaterial = 'red'\ncast_shadows = false\nlights = true\n\
     transform = { scale = [1, -2, 1], rotate = { axis = [0, 1, 0], degrees = 30 }, translate = [0, 0.5, 0] }\n\

@@ -36,14 +36,49 @@ fn an_empty_file_and_one_without_triangles() {
 }
 
 #[test]
-fn curved_primitives_are_named_and_refused() {
-    entity_refused("s 0 0 0 1", &["bad.nff:5: spheres are not supported yet"]);
-    entity_refused("c\n0 0 0 1\n0 0 1 1", &["bad.nff:5: cylinders and cones are not supported yet"]);
+fn curved_primitives_that_break_off_or_contradict_themselves() {
+    entity_refused("s 0 0 0", &["bad.nff:6: expected a number, found `p`"]);
+    entity_refused("s 0 0 0 x", &["bad.nff:5: expected a number, found `x`"]);
+    entity_refused("s 0 0 0 1 1", &["bad.nff:5: expected the end of the line, found `1`"]);
+    entity_refused("c 0 0 0 1 0 0 1", &["bad.nff:6: expected a number, found `p`"]);
+    entity_refused("c\n0 0 0 1\n0 0 1 1 1", &["bad.nff:7: expected the end of the line, found `1`"]);
+    entity_refused("c\n0 0 0 1\n0 0 1 -1", &["bad.nff:5: expected radii of one sign, found 1 and -1"]);
+    entity_refused("c 0 0 0 -inf 0 0 1 inf", &["bad.nff:5: expected radii of one sign, found -inf and inf"]);
+    text_refused("s 0 0 0 0\n", &["bad.nff: expected at least one triangle", "found 1 of zero area"]);
+    text_refused("s 1 2", &["bad.nff:1: expected a number, found the end of the file"]);
+}
+
+#[test]
+fn curved_primitives_without_area_are_dropped_and_never_silent() {
+    let folder = Folder::new();
+    let text = "s 0 0 0 0\ns 0 0 0 nan\ns 0 1e99 0 1\ns 0 0 0 -0\ns 0 0 0 inf\nc 0 0 0 1 0 0 0 1\n\
+                c 0 0 0 0 0 0 1 -0\nc 0 0 0 nan 0 0 1 -1\nc 0 0 0 1e-60 0 0 1 0\ns 0 0 0 1e-45\n";
+    let scene = formats::load(&folder.write("some.nff", text)).unwrap();
+    assert_eq!((scene.curved.len(), scene.dropped.curved), (1, 9));
+    assert!(scene.warnings.iter().any(|w| w.contains("dropped 9 curved surfaces")), "{:?}", scene.warnings);
+}
+
+#[test]
+fn transmittances_and_colours_out_of_range() {
+    for (transmittance, shown) in [("2", "2"), ("1.0000001", "1.0000001"), ("-0.5", "-0.5")] {
+        let words = format!("bad.nff:5: expected a transmittance from 0 to 1, found {shown}");
+        entity_refused(&format!("f 1 1 1 1 0 1 {transmittance} 1.5"), &[&words]);
+    }
+    entity_refused("f 1 1 1 1 0 1 nan 1.5", &["bad.nff:5: expected a finite number, found NaN"]);
+    entity_refused("f 1 1 1 1 0 1\n2\n1.5", &["bad.nff:7: expected a transmittance from 0 to 1"]);
+    for index in ["0", "-0", "-1.5", "1e-60"] {
+        let words = "bad.nff:5: expected an index of refraction above 0, found ";
+        entity_refused(&format!("f 1 1 1 1 0 1 0.5 {index}"), &[words]);
+    }
+    entity_refused("f 1 1 1 1 0 1 0.5 inf", &["bad.nff:5: expected a finite number, found inf"]);
+    for colour in ["-1", "1e31"] {
+        entity_refused(&format!("b 0 {colour} 0"), &["bad.nff:5: expected a colour from 0 to 1e30"]);
+    }
 }
 
 #[test]
 fn entities_that_are_none() {
-    entity_refused("what 1 2", &["bad.nff:5: expected one of v, b, l, f, p and pp, found `what`"]);
+    entity_refused("what 1 2", &["bad.nff:5: expected one of v, b, l, f, p, pp, s and c, found `what`"]);
     entity_refused("1 2 3", &["bad.nff:5: expected one of v, b", "found `1`"]);
     entity_refused("from 1 2 3", &["bad.nff:5: expected one of v", "found `from`"]);
     entity_refused("P 3", &["found `P`"]);

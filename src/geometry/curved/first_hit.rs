@@ -3,6 +3,7 @@
 use super::Crossing;
 use super::meeting::discriminant;
 use super::on_line::OnLine;
+use super::ray_start::RayStart;
 use super::root::{self, ExactParameter, Field, exact_place};
 use super::shape::Shape;
 use crate::geometry::Sign;
@@ -22,30 +23,14 @@ pub struct CurvedHit {
     pub crossing: Crossing,
 }
 
-/// Where rays begin, on their lines; the beginning does not belong to them.
-#[derive(Debug, Clone)]
-pub struct RayStart {
-    /// In f64, within its error.
-    pub rounded: RayParameter,
-    /// Exactly.
-    pub exact: ExactParameter,
-}
-
-impl RayStart {
-    /// The ray's origin.
-    pub fn origin() -> RayStart {
-        RayStart { rounded: RayParameter { value: 0.0, error: 0.0 }, exact: ExactParameter::zero() }
-    }
-}
-
 impl Shape {
     /// The first point of a ray on this surface, beyond its start. A touch is a hit; a ray that runs in the
     /// surface misses it.
     pub fn first_hit(&self, origin: Vec3, direction: Vec3, start: &RayStart) -> Option<CurvedHit> {
-        match rounded_hit(self, origin, direction, start.rounded) {
+        match rounded_hit(self, origin, direction, start.rounded()) {
             Decided::Hit(hit) => Some(hit),
             Decided::Miss => None,
-            Decided::Open => exact_hit(self, origin, direction, &start.exact),
+            Decided::Open => exact_hit(self, origin, direction, &start.exact(origin, direction)),
         }
     }
 

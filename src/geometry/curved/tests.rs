@@ -82,7 +82,7 @@ proptest! {
         let value = root::round(&exact.numerator, &Surd::rational(exact.denominator.clone()));
         prop_assert!((value - hit.parameter.value).abs() <= hit.parameter.error * (1.0 + 1e-9) + value.abs() * 1e-15);
         // Beyond the hit, what is left of the ray meets one time less, unless it touched.
-        let start = RayStart { rounded: hit.parameter, exact };
+        let start = RayStart::on_curved(from, direction, &shape, hit.crossing).unwrap();
         let next = shape.first_hit(from, direction, &start);
         if met.crossings == 2 {
             prop_assert!(next.is_some_and(|next| next.crossing != hit.crossing));

@@ -21,6 +21,9 @@ pub const MAX_PLY_HEADER_BYTES: usize = 1 << 20;
 /// The most triangles after instancing, before degenerate ones are dropped.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
 
+/// The most curved surfaces: one of nine bytes becomes a record of eighty.
+pub const MAX_CURVED: u64 = 1 << 24;
+
 /// The most objects; `object_id` image channels hold them exactly up to 2^24.
 pub const MAX_OBJECTS: u64 = 1 << 20;
 

@@ -16,7 +16,7 @@ pub(super) mod shading_normals;
 mod text;
 mod toml;
 
-use super::{Scene, procedural};
+use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
 use std::path::Path;
 
@@ -27,7 +27,7 @@ use std::path::Path;
 /// Files that the scene names are read only from the folder that holds it, or from below.
 ///
 /// # Errors
-/// One line with file and place for whatever cannot be read, and for a file without a single triangle.
+/// One line with file and place for whatever cannot be read, and for a file without a single primitive.
 pub fn load(path: &Path) -> Result<Scene> {
     if let Some(name) = path.to_str().and_then(|path| path.strip_prefix(BUILTIN_PREFIX)) {
         return procedural::find(name)?.build(None);
@@ -41,12 +41,13 @@ pub fn load(path: &Path) -> Result<Scene> {
         Some(Format::Toml) => toml::load(path)?,
         None => return Err(Error::input(path, Place::File, Format::EXPECTED)),
     };
-    if scene.triangles.is_empty() {
-        let dropped = scene.dropped.degenerate + scene.dropped.non_finite;
-        let why = match dropped {
-            0 => "expected at least one triangle, found none".to_owned(),
-            _ => format!(
-                "expected at least one triangle, found {dropped} of zero area or with non-finite corners"
+    if scene.primitive_count() == 0 {
+        let Dropped { degenerate, non_finite, curved } = scene.dropped;
+        let why = match degenerate + non_finite + curved {
+            0 => "expected at least one triangle or curved surface, found none".to_owned(),
+            dropped => format!(
+                "expected at least one triangle or curved surface, found {dropped} of zero area or with \
+                 numbers that are not finite or out of range"
             ),
         };
         return Err(Error::input(path, Place::File, why));

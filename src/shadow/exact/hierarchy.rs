@@ -1,13 +1,14 @@
 //! The arbiter's own culling: a hierarchy of boxes that a segment may meet.
 //!
-//! Boxes are exact (minima and maxima of f32). A box is skipped only if an interval says so, or if the
+//! Boxes are never too small. A box is skipped only if an interval says so, or if the
 //! segment's line passes it by more than a slack far above f64 rounding.
 
+use super::bounds::Bounds;
 use super::interval::{Box3, Interval};
 use crate::geometry::LightPosition;
 use glam::{DVec3, Vec3};
 
-/// Most triangles of a leaf.
+/// Most primitives of a leaf.
 const LEAF: usize = 4;
 
 /// Relative error of a few f64 operations in a row, generously.
@@ -22,53 +23,55 @@ struct Node {
 
 #[derive(Debug, Clone)]
 enum Content {
-    /// A range of the reordered triangles.
+    /// A range of the reordered primitives.
     Leaf(std::ops::Range<u32>),
     /// Two nodes.
     Inner(u32, u32),
 }
 
-/// Triangles ordered into a tree of boxes.
+/// Primitives ordered into a tree of boxes.
 #[derive(Debug)]
 pub struct Hierarchy {
     nodes: Vec<Node>,
-    /// Indices of the triangles, leaf by leaf.
+    /// Indices of the primitives, leaf by leaf.
     order: Vec<u32>,
 }
 
 impl Hierarchy {
     /// Builds the tree by halving along the longest axis of the centres.
-    pub fn new(triangles: &[[Vec3; 3]]) -> Hierarchy {
-        let mut hierarchy = Hierarchy { nodes: Vec::new(), order: (0..triangles.len() as u32).collect() };
-        if !triangles.is_empty() {
+    pub fn new(boxes: &[Bounds]) -> Hierarchy {
+        let mut hierarchy = Hierarchy { nodes: Vec::new(), order: (0..boxes.len() as u32).collect() };
+        if !boxes.is_empty() {
             let mut order = std::mem::take(&mut hierarchy.order);
-            hierarchy.add(triangles, &mut order, 0);
+            hierarchy.add(boxes, &mut order, 0);
             hierarchy.order = order;
         }
         hierarchy
     }
 
-    fn add(&mut self, triangles: &[[Vec3; 3]], order: &mut [u32], first: usize) -> u32 {
-        let corners = || order.iter().flat_map(|&t| triangles[t as usize]);
-        let low = corners().fold(Vec3::INFINITY, Vec3::min);
-        let high = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
+    fn add(&mut self, boxes: &[Bounds], order: &mut [u32], first: usize) -> u32 {
+        let low = order.iter().map(|&i| boxes[i as usize].0).fold(Vec3::INFINITY, Vec3::min);
+        let high = order.iter().map(|&i| boxes[i as usize].1).fold(Vec3::NEG_INFINITY, Vec3::max);
         let index = self.nodes.len();
         let leaf = Content::Leaf(first as u32..(first + order.len()) as u32);
         self.nodes.push(Node { low, high, content: leaf });
         if order.len() > LEAF {
             let axis = (high * 0.5 - low * 0.5).max_position();
-            let centre = |&t: &u32| triangles[t as usize].iter().map(|c| f64::from(c[axis])).sum::<f64>();
+            let centre = |&i: &u32| {
+                let (low, high) = boxes[i as usize];
+                f64::from(low[axis]) + f64::from(high[axis])
+            };
             let middle = order.len() / 2;
             order.select_nth_unstable_by(middle, |a, b| centre(a).total_cmp(&centre(b)));
             let (left, right) = order.split_at_mut(middle);
-            let left = self.add(triangles, left, first);
-            let right = self.add(triangles, right, first + middle);
+            let left = self.add(boxes, left, first);
+            let right = self.add(boxes, right, first + middle);
             self.nodes[index].content = Content::Inner(left, right);
         }
         index as u32
     }
 
-    /// Calls `visit` with every triangle whose box the segment from the light to the point may meet, until
+    /// Calls `visit` with every primitive whose box the segment from the light to the point may meet, until
     /// it returns [`Visit::Stop`].
     pub fn walk(&self, light: LightPosition, point: &Box3, mut visit: impl FnMut(u32) -> Visit) {
         if self.nodes.is_empty() {
@@ -84,8 +87,8 @@ impl Hierarchy {
             match &node.content {
                 Content::Inner(left, right) => stack.extend([*left, *right]),
                 Content::Leaf(range) => {
-                    for &triangle in &self.order[range.start as usize..range.end as usize] {
-                        if visit(triangle) == Visit::Stop {
+                    for &primitive in &self.order[range.start as usize..range.end as usize] {
+                        if visit(primitive) == Visit::Stop {
                             return;
                         }
                     }
@@ -185,9 +188,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_triangle_is_in_one_leaf() {
-        let triangles: Vec<_> = (0..100).map(|i| [Vec3::X, Vec3::Y, Vec3::Z].map(|v| v * i as f32)).collect();
-        let hierarchy = Hierarchy::new(&triangles);
+    fn every_primitive_is_in_one_leaf() {
+        let boxes: Vec<_> = (0..100).map(|i| (Vec3::splat(i as f32), Vec3::splat(i as f32 + 2.0))).collect();
+        let hierarchy = Hierarchy::new(&boxes);
         let mut order = hierarchy.order.clone();
         order.sort_unstable();
         assert_eq!(order, (0..100).collect::<Vec<u32>>());

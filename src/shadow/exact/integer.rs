@@ -1,11 +1,16 @@
 //! Exact geometry in big integers: all coordinates of a problem times one power of two.
 
+use super::point::{RelativePoint, scale_of};
+use super::surd::Surd;
 use crate::geometry::{ExactPosition, LightPosition};
 use dashu_int::IBig;
 use glam::Vec3;
 
 /// A vector of integers.
 pub type IntegerVector = [IBig; 3];
+
+/// A point x / w or, where w is 0, a direction x, as (x, w).
+pub type Homogeneous = [IBig; 4];
 
 /// A scale that makes integers of some floats: multiply by 2^-exponent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +46,13 @@ impl Scale {
         Scale { exponent: self.exponent.min(other.exponent) }
     }
 
-    fn number(self, value: f32) -> IBig {
+    /// The power of two that a unit is.
+    pub fn exponent(self) -> i32 {
+        self.exponent
+    }
+
+    /// A length in this scale.
+    pub fn number(self, value: f32) -> IBig {
         let (mantissa, exponent) = decode(value);
         if mantissa == 0 { IBig::ZERO } else { IBig::from(mantissa) << (exponent - self.exponent) as usize }
     }
@@ -97,6 +108,14 @@ impl IntegerLight {
         }
     }
 
+    /// The light relative to its origin, in homogeneous coordinates.
+    pub fn homogeneous(&self) -> Homogeneous {
+        match self {
+            IntegerLight::At(_) => [IBig::ZERO, IBig::ZERO, IBig::ZERO, IBig::ONE],
+            IntegerLight::Towards([x, y, z]) => [x.clone(), y.clone(), z.clone(), IBig::ZERO],
+        }
+    }
+
     /// What points are taken relative to: the light, or the origin.
     pub fn origin(&self) -> IntegerVector {
         match self {
@@ -112,51 +131,6 @@ pub fn scale_of_light(light: LightPosition) -> Scale {
         LightPosition::At(point) => Scale::of([point]),
         LightPosition::Towards(_) => Scale::of([]),
     }
-}
-
-/// An exact point relative to the origin of a light: xyz / w with w > 0, in units of a scale.
-#[derive(Debug, Clone)]
-pub struct RelativePoint {
-    /// Numerators.
-    pub xyz: IntegerVector,
-    /// Denominator.
-    pub w: IBig,
-}
-
-impl RelativePoint {
-    /// The position minus the origin.
-    pub fn new(position: &ExactPosition, light: &IntegerLight, scale: Scale) -> RelativePoint {
-        let from = light.origin();
-        match *position {
-            ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
-            ExactPosition::Bare(p) => RelativePoint { xyz: minus(&scale.point(p), &from), w: IBig::ONE },
-            ExactPosition::OnRay { origin, direction, triangle } => {
-                let [a, b, c] = triangle.map(|p| scale.point(p));
-                let (o, d) = (scale.point(origin), scale.point(direction));
-                let normal = cross(&minus(&b, &a), &minus(&c, &a));
-                let (t, w) = (dot(&normal, &minus(&a, &o)), dot(&normal, &d));
-                let start = minus(&o, &from);
-                let xyz = [0, 1, 2].map(|i| &start[i] * &w + &t * &d[i]);
-                if sign(&w) < 0 {
-                    RelativePoint { xyz: xyz.map(|x| -x), w: -w }
-                } else {
-                    RelativePoint { xyz, w }
-                }
-            }
-        }
-    }
-}
-
-/// The scale of everything that a position is made of, and of a light.
-pub fn scale_of(position: &ExactPosition, light: LightPosition) -> Scale {
-    let own = match *position {
-        ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
-        ExactPosition::Bare(p) => Scale::of([p]),
-        ExactPosition::OnRay { origin, direction, triangle } => {
-            Scale::of([origin, direction].into_iter().chain(triangle))
-        }
-    };
-    own.finer(scale_of_light(light))
 }
 
 /// The planes of a triangle as a light sees it, turned so that the light is on the negative side of the
@@ -201,13 +175,15 @@ impl LitTriangle {
 }
 
 /// What a plane, given by normal and value, says of a point: 0 on it.
-pub fn side_value((normal, value): &(IntegerVector, IBig), point: &RelativePoint) -> IBig {
-    dot(normal, &point.xyz) - value * &point.w
+pub fn side_value((normal, value): &(IntegerVector, IBig), point: &RelativePoint) -> Surd {
+    let mut side = point.dot(normal);
+    side.rational -= value * &point.w;
+    side
 }
 
 /// The side of a plane that a point is on: -1, 0 or 1.
 pub fn side(plane: &(IntegerVector, IBig), point: &RelativePoint) -> i32 {
-    sign(&side_value(plane, point))
+    point.field.sign(&side_value(plane, point))
 }
 
 /// Whether a float is at most numerator / denominator, exactly; the denominator is positive. Infinities are
@@ -225,16 +201,17 @@ pub fn at_most(value: f32, numerator: &IBig, denominator: &IBig) -> bool {
     }
 }
 
-/// How a closed triangle lies to the open segment between a light and a point.
+/// How a closed primitive lies to the open segment between a light and a point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Meeting {
     /// No common point that counts.
     Misses,
-    /// The segment passes through the triangle's interior.
+    /// The segment passes through the primitive, off its boundary.
     Interior,
-    /// The segment passes through the triangle's boundary: planes of the edges there, oriented inwards.
+    /// The segment passes through the boundary, or touches a curved surface. Of a triangle these are the planes of
+    /// the edges there, oriented inwards; of a curved surface none.
     Boundary(Vec<IntegerVector>),
-    /// The point itself lies on the triangle.
+    /// The point itself lies on the primitive, and the segment does not meet it otherwise.
     EndsOn,
 }
 
@@ -260,10 +237,23 @@ pub fn meet(light: LightPosition, corners: [Vec3; 3], position: &ExactPosition) 
     }
 }
 
-/// Whether two triangles lie in one plane, exactly.
-pub fn is_coplanar(a: [Vec3; 3], b: [Vec3; 3]) -> bool {
-    let scale = Scale::of(a.into_iter().chain(b));
-    let [o, p, q] = a.map(|c| scale.point(c));
-    let normal = cross(&minus(&p, &o), &minus(&q, &o));
-    b.iter().all(|&c| sign(&dot(&normal, &minus(&scale.point(c), &o))) == 0)
+/// Whether the segment between a light and a point passes through a triangle once the point is moved to
+/// P + (e, e^2, e^3) with an e > 0 too small to matter otherwise (TRUTH, "Transparent"): of the triangles that
+/// share an edge the segment then passes through as many as if it missed the edge.
+pub fn crosses(light: LightPosition, corners: [Vec3; 3], position: &ExactPosition) -> bool {
+    let scale = scale_of(position, light).finer(Scale::of(corners));
+    let light = IntegerLight::new(light, scale);
+    let point = RelativePoint::new(position, &light, scale);
+    LitTriangle::new(&light, corners, scale).is_some_and(|triangle| triangle.is_crossed(&point))
+}
+
+impl LitTriangle {
+    /// [`crosses`], for a triangle whose plane does not hold the light.
+    pub fn is_crossed(&self, point: &RelativePoint) -> bool {
+        let is_inside = |edge: &(IntegerVector, IBig)| match side(edge, point) {
+            0 => edge.0.iter().map(sign).find(|&sign| sign != 0) == Some(1),
+            side => side > 0,
+        };
+        side(&self.own, point) > 0 && self.edges.iter().all(is_inside)
+    }
 }

@@ -21,7 +21,8 @@ pub enum Decided {
 }
 
 impl Interval {
-    const EVERYTHING: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    /// All numbers.
+    pub const EVERYTHING: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
     /// A float, exactly.
     pub fn exactly(value: f32) -> Interval {
@@ -60,6 +61,33 @@ impl Interval {
             self.high / divisor.high,
         ];
         Interval::hull(ends)
+    }
+
+    /// Root of a number that is not negative, whatever the interval's lower end says.
+    pub fn root(self) -> Interval {
+        let root = Interval::outward(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
+        Interval { low: root.low.max(0.0), high: root.high }
+    }
+
+    /// Square.
+    pub fn squared(self) -> Interval {
+        let square = self * self;
+        Interval { low: square.low.max(0.0), high: square.high }
+    }
+
+    /// Where both of two intervals that hold the same number say it is.
+    pub fn and(self, other: Interval) -> Interval {
+        Interval { low: self.low.max(other.low), high: self.high.min(other.high) }
+    }
+
+    /// Whether no number is in it.
+    pub fn is_empty(self) -> bool {
+        self.low > self.high
+    }
+
+    /// Whether it is the number zero itself.
+    pub fn is_zero(self) -> bool {
+        self.low == 0.0 && self.high == 0.0
     }
 
     fn hull(ends: [f64; 4]) -> Interval {
@@ -128,6 +156,11 @@ pub fn dot(a: &Box3, b: &Box3) -> Interval {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The point at some place of a line.
+pub fn along(start: &Box3, direction: &Box3, place: Interval) -> Box3 {
+    [0, 1, 2].map(|i| start[i] + direction[i] * place)
+}
+
 /// Vector product.
 pub fn cross(a: &Box3, b: &Box3) -> Box3 {
     let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
@@ -150,6 +183,8 @@ mod tests {
             for (interval, rounded) in [(ia + ib, fa + fb), (ia - ib, fa - fb), (ia.divided_by(ib), fa / fb)] {
                 prop_assert!(interval.low < rounded && rounded < interval.high);
             }
+            let root = Interval::exactly(a.abs()).root();
+            prop_assert!(root.low < fa.abs().sqrt() && fa.abs().sqrt() < root.high);
         }
     }
 

@@ -4,27 +4,38 @@
 //! only the definition of a query with the testers. [`plain`] is the same answer without any culling or
 //! filter, for checking the arbiter itself.
 
+mod bounds;
+mod casters;
 mod hierarchy;
 mod integer;
+mod integer_shape;
 mod interval;
+mod interval_planes;
+mod interval_shape;
 mod mask;
+mod own_surface;
 pub mod plain;
+mod point;
+mod query;
+mod roots;
+mod surd;
+#[cfg(test)]
+mod tests;
 mod touching;
 mod traced;
 
 pub use integer::Meeting;
 pub use traced::Span;
 
-use super::{Basis, BuildInput, Counters, ShadowTester, TesterEntry};
+use super::{Basis, BuildInput, Counters, Crossings, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::{ExactPosition, LightPosition};
-use crate::scene::{PrimitiveIndex, Scene};
-use crate::visibility::{PointSource, SurfacePoint};
+use crate::scene::{Primitive, PrimitiveIndex, Scene};
+use crate::visibility::SurfacePoint;
+use casters::Casters;
 use glam::Vec3;
-use hierarchy::{Hierarchy, Visit};
-use integer::{IntegerLight, LitTriangle, RelativePoint, Scale};
-use interval::{Box3, Decided, cross, dot, minus};
-use rayon::prelude::*;
+use hierarchy::Visit;
+use query::Query;
 
 /// `exact` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -55,10 +66,10 @@ pub enum Occlusion {
 /// TRUTH, "Touching".
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contact {
-    /// The segment passes through triangles or past them.
+    /// The segment passes through primitives or past them.
     Clear,
-    /// It meets only boundaries that do not close around it, or it ends on a triangle outside the
-    /// receiver's plane.
+    /// It meets only boundaries that do not close around it, or only touches curved surfaces, or it ends on
+    /// what is not the receiver's surface.
     Touching,
 }
 
@@ -66,234 +77,118 @@ pub enum Contact {
 pub struct Arbiter<'a> {
     scene: &'a Scene,
     light: LightPosition,
-    /// What casts.
-    triangles: Vec<PrimitiveIndex>,
-    hierarchy: Hierarchy,
-    planes: Vec<IntervalPlanes>,
-    /// Whether the light itself lies on a triangle.
-    light_contact: Contact,
+    /// What blocks light.
+    opaque: Casters,
+    /// What lets a part of it through.
+    transparent: Casters,
+    /// What blocks and holds the light itself: an end of every segment.
+    around_light: Vec<PrimitiveIndex>,
 }
 
 impl<'a> Arbiter<'a> {
-    /// Prepares the hierarchy over all triangles that cast.
+    /// Prepares the hierarchies over all primitives that cast.
     pub fn new(input: &BuildInput<'a>) -> Arbiter<'a> {
-        let scene = input.scene;
-        let triangles: Vec<_> =
-            (0..scene.triangles.len() as u32).filter(|&t| scene.object(t).shadowing.casts).collect();
-        let corners: Vec<_> = triangles.iter().map(|&t| scene.corners(t)).collect();
-        let hierarchy = Hierarchy::new(&corners);
-        let planes = corners.par_iter().map(|&corners| IntervalPlanes::new(input.light, corners)).collect();
+        let (scene, light) = (input.scene, input.light);
+        let casting = (0..scene.primitive_count()).filter(|&p| scene.object(p).shadowing.casts);
+        let (transparent, opaque) = casting.partition(|&p| scene.is_transparent(p));
         let mut arbiter = Arbiter {
             scene,
-            light: input.light,
-            triangles,
-            hierarchy,
-            planes,
-            light_contact: Contact::Clear,
+            light,
+            opaque: Casters::new(scene, light, opaque),
+            transparent: Casters::new(scene, light, transparent),
+            around_light: Vec::new(),
         };
-        arbiter.light_contact = arbiter.contact_of_light();
+        arbiter.around_light = arbiter.primitives_around_light();
         arbiter
     }
 
-    /// A light on a triangle is the end of every segment: seen from any other point it "ends on" it.
-    fn contact_of_light(&self) -> Contact {
-        let LightPosition::At(light) = self.light else { return Contact::Clear };
+    fn primitives_around_light(&self) -> Vec<PrimitiveIndex> {
+        let LightPosition::At(light) = self.light else { return Vec::new() };
         let position = ExactPosition::Bare(light);
-        let mut contact = Contact::Clear;
-        self.hierarchy.walk(self.light, &interval::point(light), |t| {
-            let corners = self.corners(t);
-            // A direction off the triangle's plane decides whether the light lies on it.
-            let directions = [Vec3::X, Vec3::Y, Vec3::Z].map(LightPosition::Towards);
-            if directions.into_iter().any(|eye| integer::meet(eye, corners, &position) == Meeting::EndsOn) {
-                contact = Contact::Touching;
-            }
-            Visit::Continue
-        });
-        contact
-    }
-
-    /// The corners of a triangle that casts.
-    fn corners(&self, casting: u32) -> [Vec3; 3] {
-        self.scene.corners(self.triangles[casting as usize])
-    }
-
-    /// A triangle that is met in a hole of its mask is missed.
-    fn unless_a_hole(&self, meeting: Meeting, casting: u32, position: &ExactPosition) -> Meeting {
-        let is_through = matches!(meeting, Meeting::Interior | Meeting::Boundary(_));
-        let masked = self.scene.masked(self.triangles[casting as usize]).filter(|_| is_through);
-        let Some(masked) = masked else { return meeting };
-        let corners = self.corners(casting);
-        let scale = integer::scale_of(position, self.light).finer(Scale::of(corners));
-        let light = IntegerLight::new(self.light, scale);
-        let point = RelativePoint::new(position, &light, scale);
-        let triangle = LitTriangle::new(&light, corners, scale).expect("a triangle that is met");
-        if mask::is_there(&masked, &triangle, &point) { meeting } else { Meeting::Misses }
-    }
-
-    /// Every triangle that casts and that the segment of a point meets, but for those in the receiver's own
-    /// plane, in the order of their indices.
-    pub fn meetings(&self, point: &SurfacePoint) -> Vec<(PrimitiveIndex, Meeting)> {
-        let position = point.exact(self.scene);
-        let absolute = absolute_box(&relative_box(&position, self.light), self.light);
-        let receiver = point.primitive().map(|primitive| self.scene.corners(primitive));
         let mut found = Vec::new();
-        self.hierarchy.walk(self.light, &absolute, |t| {
-            let corners = self.corners(t);
-            let meeting = self.unless_a_hole(integer::meet(self.light, corners, &position), t, &position);
-            let is_own_plane = || receiver.is_some_and(|r| integer::is_coplanar(r, corners));
-            if meeting != Meeting::Misses && !(meeting == Meeting::EndsOn && is_own_plane()) {
-                found.push((self.triangles[t as usize], meeting));
+        self.opaque.walk_to_light(&interval::point(light), |caster| {
+            let is_on = match self.scene.primitive(caster.primitive) {
+                // A direction off the triangle's plane decides whether the light lies on it.
+                Primitive::Triangle(corners) => [Vec3::X, Vec3::Y, Vec3::Z]
+                    .map(LightPosition::Towards)
+                    .into_iter()
+                    .any(|eye| integer::meet(eye, corners, &position) == Meeting::EndsOn),
+                Primitive::Curved(shape) => integer_shape::holds(shape, light),
+            };
+            if is_on {
+                found.push(caster.primitive);
             }
             Visit::Continue
         });
+        found
+    }
+
+    /// Every primitive that casts and that the segment of a point meets, but for what ends in the receiver's
+    /// own surface, in the order of their indices. Transparent ones are among them.
+    pub fn meetings(&self, point: &SurfacePoint) -> Vec<(PrimitiveIndex, Meeting)> {
+        let query = Query::new(self.scene, self.light, point);
+        let mut found = Vec::new();
+        for casters in [&self.opaque, &self.transparent] {
+            casters.walk_to_light(&query.absolute(), |caster| {
+                let meeting = query.meeting(caster);
+                let is_own = || meeting == Meeting::EndsOn && query.is_own_surface(caster.primitive);
+                if meeting != Meeting::Misses && !is_own() {
+                    found.push((caster.primitive, meeting));
+                }
+                Visit::Continue
+            });
+        }
         found.sort_by_key(|(primitive, _)| *primitive);
         found
     }
 
     /// The truth about one point.
     pub fn decide(&self, point: &SurfacePoint) -> Truth {
-        let position = point.exact(self.scene);
-        let relative = relative_box(&position, self.light);
-        let absolute = absolute_box(&relative, self.light);
-        let receiver = match point.source {
-            PointSource::Ray { primitive, .. } => Some(primitive),
-            PointSource::OnCurved { .. } => todo!("points on curved surfaces"),
-            PointSource::Bare => None,
-        };
-        let receiver_corners = receiver.map(|primitive| self.scene.corners(primitive));
+        let query = Query::new(self.scene, self.light, point);
         let mut passes_through = false;
         let mut boundaries = Vec::new();
+        let mut touches_curved = false;
         let mut ends_on = false;
-        self.hierarchy.walk(self.light, &absolute, |t| {
-            // The receiver lies in its own plane, where nothing blocks.
-            if receiver == Some(self.triangles[t as usize]) {
-                return Visit::Continue;
-            }
-            let corners = self.corners(t);
-            let meeting = self.planes[t as usize]
-                .meet(&relative)
-                .unwrap_or_else(|| integer::meet(self.light, corners, &position));
-            let meeting = self.unless_a_hole(meeting, t, &position);
-            match meeting {
+        self.opaque.walk_to_light(&query.absolute(), |caster| {
+            match query.meeting(caster) {
                 Meeting::Misses => {}
                 Meeting::Interior => {
                     passes_through = true;
                     return Visit::Stop;
                 }
-                Meeting::Boundary(_) => boundaries.push(corners),
-                Meeting::EndsOn => {
-                    ends_on |= !receiver_corners.is_some_and(|r| integer::is_coplanar(r, corners))
-                }
+                Meeting::Boundary(_) => match self.scene.primitive(caster.primitive) {
+                    Primitive::Triangle(corners) => boundaries.push(corners),
+                    Primitive::Curved(_) => touches_curved = true,
+                },
+                Meeting::EndsOn => ends_on |= !query.is_own_surface(caster.primitive),
             }
             Visit::Continue
         });
-        let occluded = passes_through || !boundaries.is_empty();
-        let touching = !passes_through
-            && (ends_on
-                || self.light_contact == Contact::Touching
-                || (occluded && touching::leaves_a_gap(self.light, &position, &boundaries)));
+        let occluded = passes_through || touches_curved || !boundaries.is_empty();
+        let light_on = || self.around_light.iter().any(|&primitive| !query.is_own_surface(primitive));
+        let slips_past = || touching::leaves_a_gap(self.light, &query.position, &boundaries);
+        let touching =
+            !passes_through && (ends_on || touches_curved || light_on() || (occluded && slips_past()));
         Truth {
             occlusion: if occluded { Occlusion::Occluded } else { Occlusion::Lit },
             contact: if touching { Contact::Touching } else { Contact::Clear },
         }
     }
-}
 
-/// What points are taken relative to in intervals: the light, or the origin.
-fn origin_of(light: LightPosition) -> Box3 {
-    match light {
-        LightPosition::At(point) => interval::point(point),
-        LightPosition::Towards(_) => interval::point(Vec3::ZERO),
-    }
-}
-
-/// An interval box around the exact point minus the origin.
-fn relative_box(position: &ExactPosition, light: LightPosition) -> Box3 {
-    let light = origin_of(light);
-    match *position {
-        ExactPosition::OnCurved { .. } => todo!("points on curved surfaces"),
-        ExactPosition::Bare(p) => minus(&interval::point(p), &light),
-        ExactPosition::OnRay { origin, direction, triangle } => {
-            let [a, b, c] = triangle.map(interval::point);
-            let (o, d) = (interval::point(origin), interval::point(direction));
-            let normal = cross(&minus(&b, &a), &minus(&c, &a));
-            let t = dot(&normal, &minus(&a, &o)).divided_by(dot(&normal, &d));
-            let start = minus(&o, &light);
-            [0, 1, 2].map(|i| start[i] + t * d[i])
+    /// The transparent primitives that cast and that the segment of a point crosses, in ascending order; what
+    /// it crosses twice is there twice. The point itself is no crossing.
+    pub fn crossed(&self, point: &SurfacePoint) -> Vec<PrimitiveIndex> {
+        let mut crossed = Vec::new();
+        if self.transparent.is_empty() {
+            return crossed;
         }
-    }
-}
-
-fn absolute_box(relative: &Box3, light: LightPosition) -> Box3 {
-    let light = origin_of(light);
-    [0, 1, 2].map(|i| relative[i] + light[i])
-}
-
-/// The planes of a triangle in intervals, oriented away from the light.
-#[derive(Debug, Clone)]
-struct IntervalPlanes {
-    /// Through the light and an edge, positive inside; `None` if the triangle's plane holds the light or
-    /// intervals cannot tell, so that integers decide.
-    edges: Option<[Box3; 3]>,
-    normal: Box3,
-    /// Corners relative to the origin.
-    corners: [Box3; 3],
-    /// Whether the planes of the edges hold the origin, as they do if that is the light.
-    edges_through: EdgesThrough,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum EdgesThrough {
-    Origin,
-    Corners,
-}
-
-impl IntervalPlanes {
-    fn new(light: LightPosition, corners: [Vec3; 3]) -> IntervalPlanes {
-        let from = origin_of(light);
-        let corner = corners.map(interval::point);
-        let u = corner.map(|c| minus(&c, &from));
-        let normal = cross(&minus(&corner[1], &corner[0]), &minus(&corner[2], &corner[0]));
-        let (edges, away, edges_through) = match light {
-            LightPosition::At(_) => {
-                let edges = [cross(&u[0], &u[1]), cross(&u[1], &u[2]), cross(&u[2], &u[0])];
-                (edges, dot(&normal, &u[0]), EdgesThrough::Origin)
-            }
-            LightPosition::Towards(direction) => {
-                let direction = interval::point(direction);
-                let edge = |i: usize, j: usize| cross(&minus(&corner[j], &corner[i]), &direction);
-                ([edge(0, 1), edge(1, 2), edge(2, 0)], -dot(&normal, &direction), EdgesThrough::Corners)
-            }
-        };
-        let turn = |v: Box3| v.map(|x| -x);
-        let (edges, normal) = match away.decided() {
-            Decided::Above => (Some(edges), normal),
-            Decided::Below => (Some(edges.map(turn)), turn(normal)),
-            Decided::Open => (None, normal),
-        };
-        IntervalPlanes { edges, normal, corners: u, edges_through }
-    }
-
-    /// How a point relative to the origin meets the triangle, as far as intervals decide; boundaries and
-    /// ends are left to integers.
-    fn meet(&self, point: &Box3) -> Option<Meeting> {
-        let mut inside = true;
-        for (edge, corner) in self.edges.as_ref()?.iter().zip(&self.corners) {
-            let value = match self.edges_through {
-                EdgesThrough::Origin => dot(edge, point),
-                EdgesThrough::Corners => dot(edge, &minus(point, corner)),
-            };
-            match value.decided() {
-                Decided::Below => return Some(Meeting::Misses),
-                Decided::Above => {}
-                Decided::Open => inside = false,
-            }
-        }
-        match dot(&self.normal, &minus(point, &self.corners[0])).decided() {
-            Decided::Below => Some(Meeting::Misses),
-            Decided::Above if inside => Some(Meeting::Interior),
-            _ => None,
-        }
+        let query = Query::new(self.scene, self.light, point);
+        self.transparent.walk_to_light(&query.absolute(), |caster| {
+            crossed.extend(std::iter::repeat_n(caster.primitive, query.crossings(caster)));
+            Visit::Continue
+        });
+        crossed.sort_unstable();
+        crossed
     }
 }
 
@@ -305,7 +200,14 @@ impl ShadowTester for Arbiter<'_> {
         Ok(Counters::default())
     }
 
+    fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        for point in points {
+            crossings.push(Arbiter::crossed(self, point));
+        }
+        Ok(Counters::default())
+    }
+
     fn bytes(&self) -> usize {
-        self.planes.len() * size_of::<IntervalPlanes>() + self.hierarchy.bytes()
+        self.opaque.bytes() + self.transparent.bytes()
     }
 }

@@ -5,12 +5,14 @@
 //! the full turn, moving the segment a little still hits: the surface is tight there. Otherwise the segment
 //! touches a silhouette or a rim.
 
-use super::integer::{
-    IntegerLight, IntegerVector, Meeting, RelativePoint, Scale, cross, dot, meet, minus, scale_of, sign,
-};
+use super::integer::{IntegerLight, IntegerVector, Meeting, Scale, cross, dot, meet, minus};
+use super::point::{RelativePoint, scale_of};
+use super::surd::{Field, Surd};
 use crate::geometry::{ExactPosition, LightPosition};
-use dashu_int::IBig;
 use glam::Vec3;
+
+/// A vector of numbers of one field.
+type SurdVector = [Surd; 3];
 
 /// Whether the triangles, all met on their boundaries only, leave a gap at each point where the segment
 /// meets them.
@@ -23,16 +25,18 @@ pub fn leaves_a_gap(light: LightPosition, position: &ExactPosition, met: &[[Vec3
         let Meeting::Boundary(edges) = meet(light, corners, position) else { continue };
         let fraction = fraction_along(&integer_light, corners, &point, scale);
         let wedge = Wedge { edges };
-        match groups.iter_mut().find(|place| place.fraction.equals(&fraction)) {
+        match groups.iter_mut().find(|place| place.fraction.equals(&fraction, &point.field)) {
             Some(place) => place.wedges.push(wedge),
             None => groups.push(Place { fraction, wedges: vec![wedge] }),
         }
     }
     let axis = match integer_light {
-        IntegerLight::At(_) => point.xyz,
-        IntegerLight::Towards(direction) => direction,
+        IntegerLight::At(_) => [0, 1, 2]
+            .map(|i| Surd { rational: point.rational[i].clone(), irrational: point.irrational[i].clone() }),
+        IntegerLight::Towards(direction) => direction.map(Surd::from),
     };
-    !groups.iter().any(|place| covers_full_turn(&place.wedges, &axis))
+    let turn = Turn { axis, field: &point.field };
+    !groups.iter().any(|place| turn.is_covered_by(&place.wedges))
 }
 
 /// A point of the segment and what meets it there.
@@ -41,15 +45,17 @@ struct Place {
     wedges: Vec<Wedge>,
 }
 
-/// numerator / denominator with a positive denominator.
+/// numerator / denominator, which is not zero.
 struct Fraction {
-    numerator: IBig,
-    denominator: IBig,
+    numerator: Surd,
+    denominator: Surd,
 }
 
 impl Fraction {
-    fn equals(&self, other: &Fraction) -> bool {
-        &self.numerator * &other.denominator == &other.numerator * &self.denominator
+    fn equals(&self, other: &Fraction, field: &Field) -> bool {
+        let one = field.product(&self.numerator, &other.denominator);
+        let two = field.product(&other.numerator, &self.denominator);
+        field.sign(&(&one - &two)) == 0
     }
 }
 
@@ -60,16 +66,13 @@ fn fraction_along(light: &IntegerLight, corners: [Vec3; 3], point: &RelativePoin
     let u = corners.map(|c| minus(&scale.point(c), &from));
     let normal = cross(&minus(&u[1], &u[0]), &minus(&u[2], &u[0]));
     let height = dot(&normal, &u[0]);
-    let (numerator, denominator) = match light {
-        IntegerLight::At(_) => (height, dot(&normal, &point.xyz)),
-        IntegerLight::Towards(direction) => {
-            (height * &point.w - dot(&normal, &point.xyz), dot(&normal, direction))
-        }
-    };
-    if sign(&denominator) < 0 {
-        Fraction { numerator: -numerator, denominator: -denominator }
-    } else {
-        Fraction { numerator, denominator }
+    let at_point = point.dot(&normal);
+    match light {
+        IntegerLight::At(_) => Fraction { numerator: Surd::from(height), denominator: at_point },
+        IntegerLight::Towards(direction) => Fraction {
+            numerator: &Surd::from(height * &point.w) - &at_point,
+            denominator: Surd::from(dot(&normal, direction)),
+        },
     }
 }
 
@@ -78,32 +81,51 @@ struct Wedge {
     edges: Vec<IntegerVector>,
 }
 
-impl Wedge {
-    /// The ray at which the wedge ends in the counter-clockwise sense about `axis`.
-    fn end(&self, axis: &IntegerVector) -> Option<IntegerVector> {
-        self.edges.iter().enumerate().find_map(|(k, edge)| {
-            let ray = cross(axis, edge);
-            let inside =
-                self.edges.iter().enumerate().all(|(other, e)| other == k || sign(&dot(e, &ray)) >= 0);
-            inside.then_some(ray)
-        })
-    }
-
-    /// Whether the wedge holds a ray and what follows it counter-clockwise.
-    fn continues(&self, ray: &IntegerVector, axis: &IntegerVector) -> bool {
-        let onwards = cross(axis, ray);
-        self.edges.iter().all(|edge| match sign(&dot(edge, ray)) {
-            0 => sign(&dot(edge, &onwards)) > 0,
-            s => s > 0,
-        })
-    }
+/// The full turn about a segment.
+struct Turn<'f> {
+    axis: SurdVector,
+    field: &'f Field,
 }
 
-fn covers_full_turn(wedges: &[Wedge], axis: &IntegerVector) -> bool {
-    wedges
-        .iter()
-        .filter_map(|wedge| wedge.end(axis))
-        .all(|end| wedges.iter().any(|w| w.continues(&end, axis)))
+impl Turn<'_> {
+    /// Whether closed wedges leave no gap.
+    fn is_covered_by(&self, wedges: &[Wedge]) -> bool {
+        wedges
+            .iter()
+            .filter_map(|wedge| self.end(wedge))
+            .all(|end| wedges.iter().any(|wedge| self.continues(wedge, &end)))
+    }
+
+    /// The ray at which a wedge ends in the counter-clockwise sense about the axis.
+    fn end(&self, wedge: &Wedge) -> Option<SurdVector> {
+        wedge.edges.iter().enumerate().find_map(|(k, edge)| {
+            let ray = self.onwards(&edge.clone().map(Surd::from));
+            let mut others = wedge.edges.iter().enumerate().filter(|(other, _)| *other != k);
+            others.all(|(_, edge)| self.side(edge, &ray) >= 0).then_some(ray)
+        })
+    }
+
+    /// Whether a wedge holds a ray and what follows it counter-clockwise.
+    fn continues(&self, wedge: &Wedge, ray: &SurdVector) -> bool {
+        let onwards = self.onwards(ray);
+        wedge.edges.iter().all(|edge| match self.side(edge, ray) {
+            0 => self.side(edge, &onwards) > 0,
+            side => side > 0,
+        })
+    }
+
+    /// Vector product of the axis and a vector.
+    fn onwards(&self, v: &SurdVector) -> SurdVector {
+        let product = |i: usize, j: usize| self.field.product(&self.axis[i], &v[j]);
+        let minor = |i: usize, j: usize| &product(i, j) - &product(j, i);
+        [minor(1, 2), minor(2, 0), minor(0, 1)]
+    }
+
+    /// The side of an edge that a ray points to.
+    fn side(&self, edge: &IntegerVector, ray: &SurdVector) -> i32 {
+        let product = |i: usize| ray[i].times(&edge[i]);
+        self.field.sign(&(&(&product(0) + &product(1)) + &product(2)))
+    }
 }
 
 #[cfg(test)]

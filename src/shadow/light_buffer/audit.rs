@@ -1,6 +1,6 @@
 //! Checks a finished buffer against its own definition.
 
-use super::{LightBuffer, Record, SideLists};
+use super::{Group, LightBuffer, Record, SideLists};
 use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use glam::Vec3;
@@ -50,21 +50,48 @@ impl LightBuffer<'_> {
                 return Err(format!("cell {cell}: its list ends before it begins"));
             }
             let (full_occlusion, list) = lists.list(cell);
-            if !list.is_sorted_by(|a, b| a.near <= b.near) {
-                return Err(format!("cell {cell}: records out of order"));
-            }
+            let groups = lists.groups.of(cell);
+            self.validate_order(list, groups).map_err(|what| format!("cell {cell}: {what}"))?;
             let casters = self.casters.planes.len();
             let is_sound = |r: &Record| r.near.is_finite() && (r.caster as usize) < casters;
             if !list.iter().all(is_sound) {
                 return Err(format!("cell {cell}: a record without depth or caster"));
             }
-            if list.last().is_some_and(|r| r.near > full_occlusion) {
+            if list.iter().any(|r| r.near > full_occlusion) {
                 return Err(format!("cell {cell}: a record behind the full occlusion"));
             }
             audit.cells += 1;
             audit.records += list.len() as u64;
         }
         Ok(())
+    }
+
+    /// Records outside of groups and the first ones of groups ascend, and so do those of each group, which
+    /// belong to one object that has a volume.
+    fn validate_order(&self, list: &[Record], groups: &[Group]) -> Result<(), String> {
+        let ascend = |records: &[Record]| records.is_sorted_by(|a, b| a.near <= b.near);
+        let mut outside = Vec::new();
+        let mut next = 0;
+        for group in groups {
+            if (group.first as usize) < next || group.end <= group.first || group.end as usize > list.len() {
+                return Err("groups out of order".into());
+            }
+            outside.extend_from_slice(&list[next..=group.first as usize]);
+            let members = group.members(list);
+            let is_own = |r: &Record| {
+                let primitive = self.casters.primitives.get(r.caster as usize);
+                primitive.is_some_and(|&t| self.scene.triangles[t as usize].object == group.object)
+            };
+            if !ascend(members)
+                || !members.iter().all(is_own)
+                || self.volumes[group.object as usize].is_none()
+            {
+                return Err(format!("records of object {} are no group", group.object));
+            }
+            next = group.end as usize;
+        }
+        outside.extend_from_slice(&list[next..]);
+        if ascend(&outside) { Ok(()) } else { Err("records out of order".into()) }
     }
 
     /// A point on a triangle's rounded surface lies in a cell that lists it, cuts it off behind a full

@@ -7,13 +7,13 @@
 use super::cell::{self, Candidate, Cover, Dropped, Role};
 use super::cells::{Cells, side_grid};
 use super::convex_cover::ConvexObjects;
+use super::groups::{CellGroups, Group, Grouping};
 use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::planes::{OrientedPlanes, oriented};
-use crate::memory::MemoryLimit;
 use crate::scene::PrimitiveIndex;
-use crate::shadow::{BuildInput, Casters, Receivers};
+use crate::shadow::{BuildInput, Casters, Receivers, VolumeThreshold};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -66,6 +66,7 @@ pub(super) fn build(
 ) -> Result<(Vec<Option<SideLists>>, Statistics)> {
     let grid = side_grid(resolution);
     let convex = ConvexObjects::new(input, casters);
+    let grouping = Grouping::new(input, casters);
     let mut statistics = Statistics { resolution, ..Statistics::default() };
     let mut sides = Vec::with_capacity(cells.sides());
     for side in 0..cells.sides() {
@@ -75,11 +76,11 @@ pub(super) fn build(
             sides.push(None);
             continue;
         }
-        check_memory(&casts, &grid, resolution, input.memory)?;
+        check_memory(&casts, &grid, resolution, input)?;
         let bands = bands(&window);
         let lists: Vec<Band> = bands
             .into_par_iter()
-            .map(|rows| fill_band(&casts, &grid, &window, rows, input.receivers, &convex))
+            .map(|rows| fill_band(&casts, &grid, &window, rows, input.receivers, &convex, grouping.as_ref()))
             .collect();
         sides.push(Some(join(&window, lists, &mut statistics)?));
     }
@@ -107,15 +108,21 @@ fn project(
 
 /// Checks what the lists of one side can need before they are made: an entry and its place in the order for
 /// every cell of every cast.
-fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, limit: MemoryLimit) -> Result<()> {
+fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, input: &BuildInput) -> Result<()> {
     const ENTRY_BYTES: u64 = (size_of::<(u32, u32)>() + size_of::<u32>() + size_of::<Record>()) as u64;
+    let limit = input.memory;
+    // A group has at least one record.
+    let entry_bytes = match input.bounding_volumes {
+        VolumeThreshold::Off => ENTRY_BYTES,
+        VolumeThreshold::MoreThan(_) => ENTRY_BYTES + size_of::<Group>() as u64,
+    };
     let what = || format!("the lists of a light buffer of {resolution} cells along an edge");
     let around = |cast: &Cast| {
         let ([left, right], [top, bottom]) = (cast.footprint.columns(), cast.footprint.rows());
         u64::from(right - left + 1) * u64::from(bottom - top + 1)
     };
     // The boxes around the footprints are quick to count; rows are looked at only if those are too many.
-    if limit.check(what(), ENTRY_BYTES.saturating_mul(casts.iter().map(around).sum())).is_ok() {
+    if limit.check(what(), entry_bytes.saturating_mul(casts.iter().map(around).sum())).is_ok() {
         return Ok(());
     }
     let row_by_row = |cast: &Cast| -> u64 {
@@ -123,7 +130,7 @@ fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, limit: MemoryLimit
         let spans = (top..=bottom).filter_map(|row| cast.footprint.span(grid, row));
         spans.map(|[left, right]| u64::from(right - left + 1)).sum()
     };
-    limit.check(what(), ENTRY_BYTES.saturating_mul(casts.par_iter().map(row_by_row).sum()))
+    limit.check(what(), entry_bytes.saturating_mul(casts.par_iter().map(row_by_row).sum()))
 }
 
 /// Rows in pieces of about equal numbers of cells.
@@ -140,6 +147,7 @@ fn bands(window: &Window) -> Vec<[u32; 2]> {
 struct Band {
     headers: Vec<Header>,
     records: Vec<Record>,
+    groups: CellGroups,
     statistics: Statistics,
 }
 
@@ -150,6 +158,7 @@ fn fill_band(
     rows: [u32; 2],
     receivers: Receivers,
     convex: &ConvexObjects,
+    grouping: Option<&Grouping>,
 ) -> Band {
     let width = window.width();
     let cells = width * (rows[1] - rows[0] + 1) as usize;
@@ -163,8 +172,12 @@ fn fill_band(
         order[next[cell as usize] as usize] = index as u32;
         next[cell as usize] += 1;
     }
-    let mut band =
-        Band { headers: Vec::with_capacity(cells), records: Vec::new(), statistics: Statistics::default() };
+    let mut band = Band {
+        headers: Vec::with_capacity(cells),
+        records: Vec::new(),
+        groups: CellGroups::default(),
+        statistics: Statistics::default(),
+    };
     let mut candidates = Vec::new();
     for row in rows[0]..=rows[1] {
         for column in window.columns[0]..=window.columns[1] {
@@ -184,11 +197,16 @@ fn fill_band(
             let footprint = |k: usize| &casts[entries[members[k] as usize].1 as usize].footprint;
             let whole_object = convex.cover_depth(&candidates, footprint, grid, column, row);
             let finished = cell::finish(&mut candidates, single.min(whole_object), receivers);
-            band.headers
-                .push(Header { start: band.records.len() as u32, full_occlusion: finished.full_occlusion });
+            let start = band.records.len();
+            band.headers.push(Header { start: start as u32, full_occlusion: finished.full_occlusion });
             let record = |c: &Candidate| Some(Record { near: c.near, caster: c.role.caster()? });
             band.records.extend(candidates.iter().filter_map(record));
             band.statistics.add_cell(touching, &candidates, finished);
+            if let Some(grouping) = grouping {
+                let groups = grouping.group(&mut band.records[start..]);
+                band.statistics.bounding_volumes += groups.len() as u64;
+                band.groups.push_cell(groups);
+            }
         }
     }
     band
@@ -262,11 +280,13 @@ fn join(window: &Window, bands: Vec<Band>, statistics: &mut Statistics) -> Resul
         count: [window.width() as u32, window.height() as u32],
         headers: Vec::with_capacity(window.width() * window.height() + 1),
         records: Vec::with_capacity(records),
+        groups: CellGroups::default(),
     };
     for band in bands {
         let base = lists.records.len() as u32;
         lists.headers.extend(band.headers.iter().map(|h| Header { start: base + h.start, ..*h }));
         lists.records.extend(band.records);
+        lists.groups.append(band.groups);
         statistics.join(&band.statistics);
     }
     lists.headers.push(Header { start: lists.records.len() as u32, full_occlusion: f32::INFINITY });
@@ -292,6 +312,7 @@ impl Statistics {
         self.touched_cells += other.touched_cells;
         self.non_empty += other.non_empty;
         self.records += other.records;
+        self.bounding_volumes += other.bounding_volumes;
         self.longest_list = self.longest_list.max(other.longest_list);
         self.pruned += other.pruned;
         self.full_occlusions += other.full_occlusions;

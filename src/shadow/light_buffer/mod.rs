@@ -12,23 +12,24 @@ pub mod cells;
 mod convex_cover;
 mod convex_self;
 pub mod cube;
+mod groups;
 mod roles;
 pub mod sheet;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub use audit::Audit;
 
-use super::{
-    Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry, is_there,
-};
+use super::{Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry};
 use crate::error::{Error, Result};
-use crate::geometry::occlusion::{PreciseQuery, Stage};
-use crate::geometry::{ExactPosition, Filtered, LightPoint};
+use crate::geometry::occlusion::PreciseQuery;
+use crate::geometry::volume::Volume;
 use crate::scene::Scene;
 use crate::visibility::SurfacePoint;
-use cells::{Cells, Located};
+use cells::Cells;
 use convex_self::HarmlessObjects;
+use groups::{CellGroups, Group};
 use roles::Roles;
 
 /// `light-buffer` in the registry.
@@ -71,6 +72,7 @@ struct SideLists {
     /// One a cell, row by row, and one behind the last.
     headers: Vec<Header>,
     records: Vec<Record>,
+    groups: CellGroups,
 }
 
 impl SideLists {
@@ -86,7 +88,9 @@ impl SideLists {
     }
 
     fn bytes(&self) -> usize {
-        self.headers.len() * size_of::<Header>() + self.records.len() * size_of::<Record>()
+        self.headers.len() * size_of::<Header>()
+            + self.records.len() * size_of::<Record>()
+            + self.groups.bytes()
     }
 }
 
@@ -107,6 +111,8 @@ pub struct Statistics {
     pub non_empty: u64,
     /// Records in all lists: the paper's list items.
     pub records: u64,
+    /// Bounding-volume records; they are not among the records.
+    pub bounding_volumes: u64,
     /// Records in the longest list.
     pub longest_list: u64,
     /// Records cut off behind a full occlusion.
@@ -125,6 +131,8 @@ pub struct LightBuffer<'a> {
     receivers: Receivers,
     casters: Casters,
     harmless: HarmlessObjects,
+    /// The volume of each object; empty if no list has bounding-volume records.
+    volumes: Vec<Option<Volume>>,
     cells: Cells,
     sides: Vec<Option<SideLists>>,
     statistics: Statistics,
@@ -152,6 +160,7 @@ impl<'a> LightBuffer<'a> {
         // Lists are checked when their length is known.
         let headers = cells.sides() as u64 * u64::from(resolution).pow(2) * size_of::<Header>() as u64;
         input.memory.check(format!("a light buffer of {resolution} cells along an edge"), headers)?;
+        let volumes = groups::object_volumes(input, &casters);
         let (sides, statistics) = build::build(input, &casters, &roles.receiving_only, &cells, resolution)?;
         let statistics = Statistics { culled: roles.culled, ..statistics };
         Ok(LightBuffer {
@@ -159,6 +168,7 @@ impl<'a> LightBuffer<'a> {
             receivers: input.receivers,
             casters,
             harmless: HarmlessObjects::new(input),
+            volumes,
             cells,
             sides,
             statistics,
@@ -187,48 +197,9 @@ impl<'a> LightBuffer<'a> {
             counters.full_occlusions += 1;
             return true;
         }
-        self.is_occluded_by(list, point, &query, at, counters)
-    }
-
-    fn is_occluded_by<F: Fn() -> ExactPosition>(
-        &self,
-        list: &[Record],
-        point: &SurfacePoint,
-        query: &PreciseQuery<F>,
-        at: Located,
-        counters: &mut Counters,
-    ) -> bool {
-        let base = point.primitive();
-        let harmless = base.and_then(|base| self.harmless.of(base));
-        let relative = LightPoint::new(&self.casters.space, point.position);
         counters.lists += u64::from(!list.is_empty());
-        for record in list {
-            // Lists are in ascending order of a lower bound: nothing further on can lie before the point.
-            if f64::from(record.near) >= at.z_high {
-                return false;
-            }
-            let primitive = self.casters.primitives[record.caster as usize];
-            // Rows 15 and 16: neither the base surface nor its own convex object.
-            let is_harmless = |object| self.scene.triangles[primitive as usize].object == object;
-            if base == Some(primitive) || harmless.is_some_and(is_harmless) {
-                continue;
-            }
-            counters.tests += 1;
-            let blocks = match self.casters.planes[record.caster as usize].classify(&relative) {
-                Filtered::Blocks => true,
-                Filtered::Clear => false,
-                Filtered::Undecided => {
-                    counters.undecided += 1;
-                    let (blocks, stage) = query.blocks(self.scene.corners(primitive));
-                    counters.exact += u64::from(stage == Stage::Exact);
-                    blocks
-                }
-            };
-            if blocks && is_there(self.scene, primitive, query) {
-                return true;
-            }
-        }
-        false
+        let asked = self.asked(point, &query);
+        self.blocking_caster(list, lists.groups.of(cell), &asked, at.z_high, counters).is_some()
     }
 }
 
@@ -249,6 +220,7 @@ impl ShadowTester for LightBuffer<'_> {
     fn bytes(&self) -> usize {
         self.casters.bytes()
             + self.harmless.bytes()
+            + self.volumes.len() * size_of::<Option<Volume>>()
             + self.sides.iter().flatten().map(SideLists::bytes).sum::<usize>()
     }
 
@@ -261,6 +233,7 @@ impl ShadowTester for LightBuffer<'_> {
             ("sides built", s.sides.to_string()),
             ("cells built", s.cells.to_string()),
             ("list items", s.records.to_string()),
+            ("bounding-volume records", s.bounding_volumes.to_string()),
             ("list items per square", format!("{:.3}", s.records as f64 / all_cells)),
             ("non-empty squares", format!("{:.1} %", 100.0 * s.non_empty as f64 / all_cells)),
             ("longest list", s.longest_list.to_string()),

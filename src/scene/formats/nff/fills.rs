@@ -1,11 +1,12 @@
-//! What an `f` line begins: a material, and the object of the polygons that follow it.
+//! What an `f` line begins: a material, and the object of the primitives that follow it.
 
 use super::words::{Complaint, Words};
-use crate::scene::formats::limits::{MAX_CONCAVE_CORNERS, MAX_FILLS, MAX_TRIANGLES};
+use crate::geometry::curved::Shape;
+use crate::scene::formats::limits::{MAX_CONCAVE_CORNERS, MAX_CURVED, MAX_FILLS, MAX_TRIANGLES};
 use crate::scene::formats::polygon;
 use crate::scene::formats::shading_normals::{self, NO_NORMAL};
 use crate::scene::formats::text::counted;
-use crate::scene::{Material, ObjectInput, SceneBuilder, SmoothNormals};
+use crate::scene::{Material, ObjectInput, SceneBuilder, SmoothNormals, Transmission};
 use glam::Vec3;
 
 /// Whether the corners of a polygon have normals.
@@ -26,12 +27,13 @@ pub(super) struct Fills {
     material: u32,
     positions: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
+    /// Polygons that the triangles were cut from.
+    polygons: u32,
+    curved: Vec<Shape>,
     normals: Vec<Vec3>,
     /// Indices into `normals` for each triangle, or [`NO_NORMAL`].
     normal_corners: Vec<[u32; 3]>,
     /// What is not drawn as the file has it.
-    transparent: usize,
-    first_transparent: Option<String>,
     without_fill: usize,
     flat: usize,
     crossed: usize,
@@ -44,23 +46,25 @@ impl Fills {
     }
 
     /// Reads what follows `f`: `r g b Kd Ks shine T ior`.
+    ///
+    /// # Errors
+    /// A transmittance that is no share, and one above 0 with an index of refraction that is none.
     pub(super) fn begin(&mut self, words: &mut Words, builder: &mut SceneBuilder) -> Result<(), Complaint> {
         self.finish_object(builder).map_err(|why| (words.line(), why))?;
-        let [r, g, b, diffuse, specular, shininess, transmittance, _refraction] = words.finite()?;
+        let [r, g, b, diffuse, specular, shininess, transmittance, refraction] = words.finite()?;
         self.count += 1;
         if self.count > MAX_FILLS {
             return Err((words.line(), format!("expected at most {MAX_FILLS} materials")));
         }
-        if transmittance > 0.0 {
-            self.transparent += 1;
-            let name = self.name();
-            self.first_transparent.get_or_insert(name);
-        }
+        let transmission = transmission(transmittance, refraction).map_err(|why| (words.line(), why))?;
+        let reflected = [specular.clamp(0.0, 1.0); 3];
         self.material = builder.add_material(Material {
             name: self.name(),
             diffuse: [r, g, b].map(|channel| (channel * diffuse).clamp(0.0, 1.0)),
-            specular: [specular.clamp(0.0, 1.0); 3],
+            specular: reflected,
             shininess: shininess.max(1.0),
+            mirror: reflected,
+            transmission,
             ..Material::default()
         });
         Ok(())
@@ -95,6 +99,7 @@ impl Fills {
             return Ok(());
         }
         self.without_fill += usize::from(self.count == 0);
+        self.polygons += 1;
         let cut = polygon::triangulate(&self.positions[position..], MAX_CONCAVE_CORNERS);
         let cut = cut.map_err(|why| (first, why))?;
         self.crossed += usize::from(cut.crossed);
@@ -108,13 +113,36 @@ impl Fills {
         Ok(())
     }
 
-    /// Adds the object of the last `f` line, if it has polygons.
+    /// Takes a curved surface.
+    ///
+    /// # Errors
+    /// If there are too many.
+    pub(super) fn curved(
+        &mut self,
+        shape: Shape,
+        words: &Words,
+        builder: &SceneBuilder,
+    ) -> Result<(), Complaint> {
+        if (builder.curved_count() + self.curved.len()) as u64 == MAX_CURVED {
+            return Err((
+                words.line(),
+                format!("expected at most {MAX_CURVED} spheres, cylinders and cones"),
+            ));
+        }
+        self.without_fill += usize::from(self.count == 0);
+        self.curved.push(shape);
+        Ok(())
+    }
+
+    /// Adds the object of the last `f` line, if it has primitives.
     pub(super) fn finish_object(&mut self, builder: &mut SceneBuilder) -> Result<(), String> {
         let positions = std::mem::take(&mut self.positions);
         let triangles = std::mem::take(&mut self.triangles);
         let normals = std::mem::take(&mut self.normals);
         let corners = std::mem::take(&mut self.normal_corners);
-        if triangles.is_empty() {
+        let curved = std::mem::take(&mut self.curved);
+        let polygons = std::mem::take(&mut self.polygons);
+        if triangles.is_empty() && curved.is_empty() {
             return Ok(());
         }
         let normals = (!normals.is_empty()).then(|| {
@@ -124,6 +152,8 @@ impl Fills {
         });
         let input = ObjectInput {
             material: self.material,
+            polygons: Some(polygons),
+            curved,
             normals,
             ..ObjectInput::new(self.name(), positions, triangles)
         };
@@ -132,12 +162,8 @@ impl Fills {
 
     /// Says what is not drawn as the file has it.
     pub(super) fn warn(&self, builder: &mut SceneBuilder) {
-        if let Some(first) = &self.first_transparent {
-            let count = counted(self.transparent, "material");
-            builder.warn(format!("transparent materials are drawn opaque ({count}, the first `{first}`)"));
-        }
         for (count, what, noun) in [
-            (self.without_fill, "what comes before the first `f` is drawn grey", "polygon"),
+            (self.without_fill, "what comes before the first `f` is drawn grey", "primitive"),
             (self.flat, "polygons of fewer than three corners are not drawn", "polygon"),
             (
                 self.crossed,
@@ -155,4 +181,18 @@ impl Fills {
             }
         }
     }
+}
+
+/// What passes through a surface; nothing if the transmittance is 0, and then the index means nothing.
+fn transmission(transmittance: f32, refractive_index: f32) -> Result<Option<Transmission>, String> {
+    if !(0.0..=1.0).contains(&transmittance) {
+        return Err(format!("expected a transmittance from 0 to 1, found {transmittance}"));
+    }
+    if transmittance == 0.0 {
+        return Ok(None);
+    }
+    if refractive_index <= 0.0 {
+        return Err(format!("expected an index of refraction above 0, found {refractive_index}"));
+    }
+    Ok(Some(Transmission { transmittance: [transmittance; 3], refractive_index }))
 }

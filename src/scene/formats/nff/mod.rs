@@ -6,18 +6,24 @@
 //! - **`v`** becomes a camera that brings its own image size. `hither` has no effect: surfaces nearer to the
 //!   eye are seen as well. Where width and height differ, `angle` is the vertical field, for pixels are
 //!   square.
-//! - **`b`** has no effect: where nothing is seen, images are 0 with an alpha of 0.
+//! - **`b`** is the scene's background, which rays that leave the scene see, the last one if there are
+//!   several. Where a camera sees nothing, images are 0 with an alpha of 0.
 //! - **`l`** becomes a point light that does not thin out with distance. Of n lights each has the usual
 //!   intensity `sqrt(n) / (2 n)` in NFF's units, where a surface that faces it has the radiance colour x Kd x
 //!   intensity. Shading divides irradiance by pi, so that is `pi sqrt(n) / (2 n)`, times the light's colour.
-//! - **`f`** becomes a material: diffuse colour x Kd, highlight Ks with the exponent `shine` of at least 1.
-//!   What transmits is drawn opaque.
+//! - **`f`** becomes a material: diffuse colour x Kd; Ks, white, as the weight of a highlight with the exponent
+//!   `shine` of at least 1 and as what a mirror reflects; `T`, for all colours alike, as what passes through,
+//!   bent by the index of refraction `ior`, which must be above 0 if T is and means nothing otherwise. Kd and
+//!   Ks that are no shares are cut to 0 and 1, a T that is none is an error.
 //! - **`p` and `pp`** are cut into triangles, see [`polygon`](super::polygon). All that share an `f` line are
-//!   one object, `fill-3` after the third: the file does not say which polygons belong to one thing. So two
+//!   one object, `fill-3` after the third: the file does not say which primitives belong to one thing. So two
 //!   solids under one `f` are not recognised as convex, which costs speed and no answers. The file's
 //!   sidedness decides what a camera sees of a surface, and is ignored: both sides of everything are drawn.
-//! - **`s` and `c`**, spheres, cylinders and cones, are refused, since a scene without them would be another.
+//! - **`s` and `c`** become spheres and the walls of cylinders and cones, without caps. Negative radii ask for
+//!   the inside to be seen in place of the outside; since both are, the sign goes. A cone of one radius above
+//!   and one below 0 is an error. What has no area is dropped and counted.
 
+mod curved;
 mod fills;
 mod viewpoint;
 mod words;
@@ -36,7 +42,7 @@ use std::path::Path;
 /// Reads an NFF file.
 ///
 /// # Errors
-/// One line with file and line for whatever cannot be read, and for curved primitives.
+/// One line with file and line for whatever cannot be read.
 pub(super) fn load(path: &Path) -> Result<Scene> {
     let text = confined::read_scene(path)?;
     let mut builder = SceneBuilder::new(scene_name(path));
@@ -60,7 +66,9 @@ fn read(text: &[u8], builder: &mut SceneBuilder) -> std::result::Result<(), Comp
                 builder.add_camera(Camera { name, ..camera });
             }
             b"b" => {
-                words.finite::<3>()?;
+                let colour = words.finite()?;
+                check_colour(&colour).map_err(|why| (words.line(), why))?;
+                builder.set_background(colour);
             }
             b"l" => {
                 lamps.push(Lamp::read(&mut words)?);
@@ -71,10 +79,16 @@ fn read(text: &[u8], builder: &mut SceneBuilder) -> std::result::Result<(), Comp
             b"f" => fills.begin(&mut words, builder)?,
             b"p" => fills.polygon(Corners::Flat, &mut words, builder)?,
             b"pp" => fills.polygon(Corners::Smooth, &mut words, builder)?,
-            b"s" => return Err((words.line(), "spheres are not supported yet".into())),
-            b"c" => return Err((words.line(), "cylinders and cones are not supported yet".into())),
+            b"s" => {
+                let sphere = curved::sphere(&mut words)?;
+                fills.curved(sphere, &words, builder)?;
+            }
+            b"c" => {
+                let cone = curved::cone(&mut words)?;
+                fills.curved(cone, &words, builder)?;
+            }
             other => {
-                let why = format!("expected one of v, b, l, f, p and pp, found `{}`", shown(other));
+                let why = format!("expected one of v, b, l, f, p, pp, s and c, found `{}`", shown(other));
                 return Err((words.line(), why));
             }
         }
@@ -95,6 +109,14 @@ fn read(text: &[u8], builder: &mut SceneBuilder) -> std::result::Result<(), Comp
 /// The most that a channel of a light's colour may be, so that all that is computed from it is finite.
 const BRIGHTEST: f32 = 1e30;
 
+/// Whether all channels are in range.
+fn check_colour(channels: &[f32]) -> std::result::Result<(), String> {
+    match channels.iter().find(|channel| !(0.0..=BRIGHTEST).contains(*channel)) {
+        Some(channel) => Err(format!("expected a colour from 0 to {BRIGHTEST:e}, found {channel}")),
+        None => Ok(()),
+    }
+}
+
 /// An `l` line.
 struct Lamp {
     position: Vec3,
@@ -109,12 +131,8 @@ impl Lamp {
         while given.len() < 3
             && let Some(word) = words.rest_of_line()
         {
-            let channel = words::parse(word, "a number").map_err(|why| (words.line(), why))?;
-            if !(0.0..=BRIGHTEST).contains(&channel) {
-                let why = format!("expected a colour from 0 to {BRIGHTEST:e}, found {channel}");
-                return Err((words.line(), why));
-            }
-            given.push(channel);
+            given.push(words::parse(word, "a number").map_err(|why| (words.line(), why))?);
+            check_colour(&given).map_err(|why| (words.line(), why))?;
         }
         let colour = match given[..] {
             [] => [1.0; 3],

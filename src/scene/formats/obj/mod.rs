@@ -201,7 +201,7 @@ fn object(
     let mut triangles = Vec::new();
     let mut corners = Vec::new();
     let mut any_normals = false;
-    let mut first = 0;
+    let (mut first, mut polygons) = (0, 0);
     let all_threes = std::iter::repeat_n(3, mesh.indices.len() / 3);
     let arities: Box<dyn Iterator<Item = u32>> = match mesh.face_arities.is_empty() {
         true => Box::new(all_threes),
@@ -210,6 +210,7 @@ fn object(
     for arity in arities {
         let range = first..first + arity as usize;
         first = range.end;
+        polygons += 1;
         let indices = &mesh.indices[range.clone()];
         let Outline { line, has_normals } =
             outlines.next().unwrap_or(Outline { line: 0, has_normals: false });
@@ -232,7 +233,8 @@ fn object(
     });
     // `tobj`'s index 0 is the library's first material; 0 of the scene is the default.
     let material = mesh.material_id.map_or(0, |index| index as u32 + 1);
-    Ok(ObjectInput { material, normals, ..ObjectInput::new(name, positions, triangles) })
+    let polygons = Some(polygons);
+    Ok(ObjectInput { material, normals, polygons, ..ObjectInput::new(name, positions, triangles) })
 }
 
 fn warn(

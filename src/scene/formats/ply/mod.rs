@@ -55,7 +55,8 @@ pub(super) fn load(path: &Path) -> Result<Scene> {
         normals
     });
     let (positions, triangles) = (std::mem::take(&mut mesh.positions), std::mem::take(&mut mesh.triangles));
-    let input = ObjectInput { normals, ..ObjectInput::new(file_stem(path), positions, triangles) };
+    let polygons = Some(mesh.polygons);
+    let input = ObjectInput { normals, polygons, ..ObjectInput::new(file_stem(path), positions, triangles) };
     builder.add_object(input).map_err(|error| Error::input(path, Place::File, error.to_string()))?;
     warn(&mut builder, &header, &mesh, normals_replaced);
     Ok(builder.finish())
@@ -151,6 +152,8 @@ struct Mesh {
     flat: usize,
     /// Polygons that cross themselves.
     crossed: usize,
+    /// Faces of at least three corners, and triangles of strips.
+    polygons: u32,
     /// What comes after the last element.
     left_over: Option<String>,
 }
@@ -301,6 +304,7 @@ impl Mesh {
             return Ok(());
         }
         let cut = polygon::triangulate(&polygon.outline, MAX_CONCAVE_CORNERS)?;
+        self.polygons += 1;
         self.crossed += usize::from(cut.crossed);
         self.triangles.extend(cut.triangles.iter().map(|triangle| triangle.map(|i| polygon.corners[i])));
         Ok(())
@@ -324,6 +328,7 @@ impl Mesh {
             let vertex = self.vertex(number)?;
             if seen >= 2 {
                 let [a, b] = last;
+                self.polygons += 1;
                 self.triangles.push(if seen % 2 == 0 { [a, b, vertex] } else { [b, a, vertex] });
             }
             last = [last[1], vertex];

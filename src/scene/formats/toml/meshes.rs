@@ -65,7 +65,14 @@ pub(super) fn read(
     };
     let material = mesh.material.as_ref().map_or(Ok(0), |name| find(materials, name))?;
     let name = name_of("mesh", index, mesh.name.as_deref());
-    let input = ObjectInput { material, normals, shadowing, ..ObjectInput::new(name, positions, triangles) };
+    let polygons = Some(mesh.faces.len() as u32);
+    let input = ObjectInput {
+        material,
+        normals,
+        shadowing,
+        polygons,
+        ..ObjectInput::new(name, positions, triangles)
+    };
     Ok(Read { input, crossed })
 }
 

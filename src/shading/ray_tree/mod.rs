@@ -1,0 +1,162 @@
+//! Ray trees (row 22 of the notes on the 1986 paper): what mirrors and transparent surfaces show, level by level.
+//!
+//! A tree grows without asking who sees a light, so a forest, a tree a pixel, is complete before any shadow is
+//! tested. The points of all its levels then are queries of the same testers.
+
+mod branch;
+mod spawn;
+
+pub use branch::{reflected, refracted};
+pub use spawn::{Branch, Kind, branches};
+
+use crate::scene::Scene;
+use crate::visibility::hierarchy::{FirstHit, Hierarchy, Ray};
+use crate::visibility::{SurfacePoint, VisibleSurfaces};
+use rayon::prelude::*;
+
+/// How deep trees are unless something else is asked for: as deep as those of the 1986 paper.
+pub const USUAL_DEPTH: u32 = 5;
+
+/// Rays and hits of all trees of a picture.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+pub struct TreeStatistics {
+    /// Rays from the eye.
+    pub eye_rays: u64,
+    /// Those that hit something.
+    pub eye_hits: u64,
+    /// Rays that mirrors made, and those of total reflection.
+    pub reflection_rays: u64,
+    /// Rays that passed through a transparent surface.
+    pub refraction_rays: u64,
+    /// Rays of total reflection, counted above.
+    pub total_reflections: u64,
+    /// Rays that rounding or a bent shading normal left on the wrong side of their surface; not counted above.
+    pub dropped: u64,
+    /// Points where rays of any level hit something.
+    pub nodes: u64,
+    /// The most rays one behind the other, that from the eye included.
+    pub depth: u32,
+}
+
+impl TreeStatistics {
+    /// The paper's average tree size: points a ray from the eye.
+    pub fn average_tree(&self) -> f64 {
+        if self.eye_rays == 0 { 0.0 } else { self.nodes as f64 / self.eye_rays as f64 }
+    }
+}
+
+/// The trees of all pixels of a picture.
+#[derive(Debug, Clone)]
+pub struct RayForest {
+    /// The points of all trees, level by level; those that the camera sees come first.
+    pub nodes: VisibleSurfaces,
+    /// The share of each node's radiance that reaches its pixel, linear Rec. 709.
+    pub weights: Vec<[f32; 3]>,
+    /// Pixels with rays that leave the scene, and the shares that those have.
+    pub sky: Vec<(u32, [f32; 3])>,
+    /// What grew.
+    pub statistics: TreeStatistics,
+}
+
+/// A ray that is to be traced.
+struct Twig {
+    pixel: u32,
+    weight: [f32; 3],
+    ray: Ray,
+}
+
+impl RayForest {
+    /// Grows the trees of what a camera sees, of `eye_rays` rays, with at most `depth` rays one behind the other:
+    /// with 1 they are what the camera sees.
+    pub fn grow(scene: &Scene, seen: VisibleSurfaces, eye_rays: u64, depth: u32) -> RayForest {
+        let hits = seen.points.len();
+        let statistics =
+            TreeStatistics { eye_rays, eye_hits: hits as u64, depth: 1, ..TreeStatistics::default() };
+        let mut forest =
+            RayForest { weights: vec![[1.0; 3]; hits], nodes: seen, sky: Vec::new(), statistics };
+        let branches = |material: &crate::scene::Material| {
+            material.mirror != [0.0; 3] || material.transmission.is_some()
+        };
+        if scene.materials.iter().any(branches) {
+            let hierarchy = Hierarchy::new(scene);
+            let mut first = 0;
+            for _ in 1..depth {
+                let twigs = forest.sprout(scene, first);
+                first = forest.nodes.points.len();
+                if twigs.is_empty() {
+                    break;
+                }
+                forest.statistics.depth += 1;
+                forest.trace(scene, &hierarchy, &twigs);
+            }
+        }
+        forest.statistics.nodes = forest.nodes.points.len() as u64;
+        forest
+    }
+
+    /// The rays that leave the nodes from a number on, in their order.
+    fn sprout(&mut self, scene: &Scene, first: usize) -> Vec<Twig> {
+        let points = self.nodes.points[first..].par_iter();
+        let sprouted: Vec<(Vec<Twig>, TreeStatistics)> = points
+            .enumerate()
+            .map(|(i, point)| {
+                let node = first + i;
+                let (pixel, weight) = (self.nodes.pixels[node], self.weights[node]);
+                let mut counts = TreeStatistics::default();
+                let mut twigs = Vec::new();
+                for branch in branches(scene, point) {
+                    let weight = std::array::from_fn(|c| weight[c] * branch.share[c]);
+                    match branch.ray {
+                        Some(ray) => {
+                            counts.count(branch.kind);
+                            twigs.push(Twig { pixel, weight, ray });
+                        }
+                        None => counts.dropped += 1,
+                    }
+                }
+                (twigs, counts)
+            })
+            .collect();
+        let mut all = Vec::new();
+        for (twigs, counts) in sprouted {
+            all.extend(twigs);
+            self.statistics.reflection_rays += counts.reflection_rays;
+            self.statistics.refraction_rays += counts.refraction_rays;
+            self.statistics.total_reflections += counts.total_reflections;
+            self.statistics.dropped += counts.dropped;
+        }
+        all
+    }
+
+    fn trace(&mut self, scene: &Scene, hierarchy: &Hierarchy, twigs: &[Twig]) {
+        let point = |ray: &Ray, FirstHit { primitive, crossing }: FirstHit| match crossing {
+            Some(crossing) => SurfacePoint::on_curved(scene, ray.origin, ray.direction, primitive, crossing),
+            None => SurfacePoint::on_ray(scene, ray.origin, ray.direction, primitive),
+        };
+        let hits: Vec<_> =
+            twigs.par_iter().map(|twig| Some(point(&twig.ray, hierarchy.first_hit(&twig.ray)?))).collect();
+        for (twig, hit) in twigs.iter().zip(hits) {
+            match hit {
+                Some(point) => {
+                    self.nodes.points.push(point);
+                    self.nodes.pixels.push(twig.pixel);
+                    self.weights.push(twig.weight);
+                }
+                None => self.sky.push((twig.pixel, twig.weight)),
+            }
+        }
+    }
+}
+
+impl TreeStatistics {
+    fn count(&mut self, kind: Kind) {
+        match kind {
+            Kind::Reflection => self.reflection_rays += 1,
+            Kind::Refraction => self.refraction_rays += 1,
+            Kind::TotalReflection => {
+                self.reflection_rays += 1;
+                self.total_reflections += 1;
+            }
+        }
+    }
+}

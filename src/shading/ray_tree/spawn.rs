@@ -1,0 +1,130 @@
+//! The rays that leave a point where a ray hits something.
+
+use super::branch::{reflected, refracted};
+use crate::geometry::curved::{Crossing, RayStart};
+use crate::geometry::planes::orientation;
+use crate::geometry::{LightPosition, Sign};
+use crate::scene::{Primitive, PrimitiveIndex, Scene};
+use crate::shading::normal_at;
+use crate::visibility::hierarchy::Ray;
+use crate::visibility::{PointSource, SurfacePoint};
+use glam::{DVec3, Vec3};
+
+/// What made a ray.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A mirror.
+    Reflection,
+    /// A transparent surface that it passes through.
+    Refraction,
+    /// A transparent surface that it does not pass through, for it meets that too flat from inside.
+    TotalReflection,
+}
+
+/// A ray that leaves a surface.
+pub struct Branch {
+    /// What made it.
+    pub kind: Kind,
+    /// The share of its radiance that goes the way that its parent came, linear Rec. 709.
+    pub share: [f32; 3],
+    /// The ray; `None` if rounding or a bent shading normal leaves it on the wrong side of the surface.
+    pub ray: Option<Ray>,
+}
+
+/// The side of a surface that a ray leaves to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Where its parent came from.
+    Viewer,
+    /// The other one.
+    Beyond,
+}
+
+/// The point's surface and the ray that found it.
+struct Hit {
+    primitive: PrimitiveIndex,
+    direction: Vec3,
+    crossing: Option<Crossing>,
+}
+
+impl Hit {
+    fn of(point: &SurfacePoint) -> Option<Hit> {
+        match point.source {
+            PointSource::Ray { direction, primitive, .. } => {
+                Some(Hit { primitive, direction, crossing: None })
+            }
+            PointSource::OnCurved { direction, primitive, crossing, .. } => {
+                Some(Hit { primitive, direction, crossing: Some(crossing) })
+            }
+            PointSource::Bare => None,
+        }
+    }
+
+    /// Whether the ray comes from outside: where the polynomial of a curved surface is positive, and from where
+    /// the corners of a triangle go round counter-clockwise.
+    fn comes_from_outside(&self, scene: &Scene) -> bool {
+        match scene.primitive(self.primitive) {
+            Primitive::Triangle(corners) => {
+                orientation(LightPosition::Towards(-self.direction), corners) == Sign::Negative
+            }
+            Primitive::Curved(_) => self.crossing == Some(Crossing::Entering),
+        }
+    }
+}
+
+/// The rays of reflection and refraction of a point; none for a point on no surface.
+pub fn branches(scene: &Scene, point: &SurfacePoint) -> Vec<Branch> {
+    let Some(hit) = Hit::of(point) else { return Vec::new() };
+    let material = scene.material(hit.primitive);
+    if material.mirror == [0.0; 3] && material.transmission.is_none() {
+        return Vec::new();
+    }
+    let direction = hit.direction.as_dvec3().normalize();
+    let normal = normal_at(scene, hit.primitive, point.position, -direction);
+    let leave = |towards: DVec3, side: Side| leave(scene, point, &hit, towards, side);
+    let mirrored = || leave(reflected(direction, normal), Side::Viewer);
+    let mut branches = Vec::new();
+    if material.mirror != [0.0; 3] {
+        branches.push(Branch { kind: Kind::Reflection, share: material.mirror, ray: mirrored() });
+    }
+    if let Some(transmission) = material.transmission {
+        let index = f64::from(transmission.refractive_index);
+        let ratio = if hit.comes_from_outside(scene) { 1.0 / index } else { index };
+        let (kind, ray) = match refracted(direction, normal, ratio) {
+            Some(bent) => (Kind::Refraction, leave(bent, Side::Beyond)),
+            None => (Kind::TotalReflection, mirrored()),
+        };
+        branches.push(Branch { kind, share: transmission.transmittance, ray });
+    }
+    branches
+}
+
+/// The ray from a point, with origin and direction rounded to floats and from then on given (TRUTH, "Rays of
+/// reflection and refraction").
+fn leave(scene: &Scene, point: &SurfacePoint, hit: &Hit, towards: DVec3, side: Side) -> Option<Ray> {
+    let (origin, direction) = (point.position.as_vec3(), towards.as_vec3());
+    if !origin.is_finite() || !direction.is_finite() || direction == Vec3::ZERO {
+        return None;
+    }
+    let start = match scene.primitive(hit.primitive) {
+        Primitive::Triangle(corners) => {
+            let along = |direction: Vec3| orientation(LightPosition::Towards(-direction), corners);
+            let wanted = match side {
+                Side::Viewer => -along(hit.direction),
+                Side::Beyond => along(hit.direction),
+            };
+            (along(direction) == wanted).then(|| RayStart::on_triangle(origin, direction, corners))?
+        }
+        Primitive::Curved(shape) => {
+            let came_entering = hit.crossing? == Crossing::Entering;
+            let crossing = match (side, came_entering) {
+                (Side::Viewer, true) | (Side::Beyond, false) => Crossing::Leaving,
+                _ => Crossing::Entering,
+            };
+            let outwards = shape.gradient(point.position).dot(direction.as_dvec3());
+            let wanted = if crossing == Crossing::Leaving { outwards > 0.0 } else { outwards < 0.0 };
+            wanted.then(|| RayStart::on_curved(origin, direction, shape, crossing))??
+        }
+    };
+    Some(Ray { origin, direction, start })
+}

@@ -1,0 +1,58 @@
+//! Who is asked: the shadow queries of one light.
+
+use super::facing::{Facing, Sides};
+use crate::scene::{Light, Scene};
+use crate::visibility::{SurfacePoint, VisibleSurfaces};
+use rayon::prelude::*;
+
+/// The shadow queries of one light: points of an image that face it or that it shines through, inside its cone if
+/// it has one, on objects that receive shadows.
+#[derive(Debug, Clone, Default)]
+pub struct Queries {
+    /// The points.
+    pub points: Vec<SurfacePoint>,
+    /// The number of each point among those of the image; all lists here are in ascending order.
+    pub nodes: Vec<u32>,
+    /// Those of the queries, by their places in `points`, that are on a transparent surface which the
+    /// light reaches from behind: it passes through that surface too.
+    pub from_behind: Vec<u32>,
+    /// Points of the image whose surface faces away from the light: dark without a query.
+    pub facing_away: Vec<u32>,
+    /// Points whose surface faces it and is outside its cone: dark without a query.
+    pub outside_cone: Vec<u32>,
+    /// Points on objects that receive no shadows and would otherwise be queries: lit without one.
+    pub not_receiving: Vec<u32>,
+}
+
+impl Queries {
+    /// Splits the points of an image.
+    pub fn new(scene: &Scene, visible: &VisibleSurfaces, light: &Light) -> Queries {
+        let sides = Sides::of(scene, light.position());
+        let cone = light.lit_cone();
+        let is_lit =
+            |point: &SurfacePoint| cone.is_none_or(|cone| cone.holds(point.position, || point.exact(scene)));
+        let receives =
+            |point: &SurfacePoint| point.primitive().is_none_or(|p| scene.object(p).shadowing.receives);
+        let facing: Vec<Facing> = visible.points.par_iter().map(|p| sides.facing(scene, p)).collect();
+        let lets_light_through =
+            |point: &SurfacePoint| point.primitive().is_some_and(|p| scene.is_transparent(p));
+        let mut queries = Queries::default();
+        for ((point, node), &facing) in visible.points.iter().zip(0..).zip(&facing) {
+            let from_behind = facing == Facing::Away && lets_light_through(point);
+            if facing != Facing::Towards && !from_behind {
+                queries.facing_away.push(node);
+            } else if !is_lit(point) {
+                queries.outside_cone.push(node);
+            } else if !receives(point) {
+                queries.not_receiving.push(node);
+            } else {
+                if from_behind {
+                    queries.from_behind.push(queries.points.len() as u32);
+                }
+                queries.points.push(*point);
+                queries.nodes.push(node);
+            }
+        }
+        queries
+    }
+}
