@@ -17,6 +17,7 @@ pub(super) struct Counts {
     pub(super) curved: BTreeMap<&'static str, usize>,
     pub(super) transparent_objects: usize,
     pub(super) mirror_objects: usize,
+    pub(super) textures: usize,
 }
 
 impl Counts {
@@ -34,6 +35,7 @@ impl Counts {
             curved,
             transparent_objects: objects().filter(|o| material(o).transmission.is_some()).count(),
             mirror_objects: objects().filter(|o| material(o).mirror != [0.0; 3]).count(),
+            textures: scene.textures.len(),
         }
     }
 }

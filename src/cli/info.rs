@@ -171,8 +171,14 @@ fn text(facts: &Facts) -> String {
         let _ = writeln!(out, "  curved: {}", shapes_in_words(&facts.counts.curved));
     }
     let (transparent, mirrors) = (facts.counts.transparent_objects, facts.counts.mirror_objects);
-    if transparent + mirrors > 0 {
-        let _ = writeln!(out, "  {} transparent objects, {} mirrors", count(transparent), count(mirrors));
+    if transparent + mirrors + facts.counts.textures > 0 {
+        let _ = writeln!(
+            out,
+            "  {} transparent objects, {} mirrors, {} textures",
+            count(transparent),
+            count(mirrors),
+            count(facts.counts.textures)
+        );
     }
     let _ = writeln!(
         out,

@@ -5,7 +5,9 @@ use crate::geometry::LightPosition;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
 use crate::shading::USUAL_DEPTH;
-use crate::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, VolumeThreshold};
+use crate::shadow::{
+    BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, VolumeThreshold,
+};
 use clap::Args;
 use glam::Vec3;
 use std::path::PathBuf;
@@ -102,6 +104,9 @@ pub struct RunOptions {
     /// than this; the 1986 paper says 6. No answer depends on it [default: never]
     #[arg(long, value_name = "N")]
     pub volume_threshold: Option<u32>,
+    /// Let the light buffer try the triangle that occluded the last point first. No answer depends on it
+    #[arg(long)]
+    pub object_coherence: bool,
     /// Share of a segment that Embree leaves out at both ends, in [0, 0.5)
     #[arg(long, value_name = "E", default_value_t = 1e-4, value_parser = parse_epsilon)]
     pub embree_epsilon: f32,
@@ -144,6 +149,11 @@ impl RunOptions {
         BuildInput {
             resolution: self.resolution,
             culling: self.cull,
+            object_coherence: if self.object_coherence {
+                ObjectCoherence::LastOccluder
+            } else {
+                ObjectCoherence::Off
+            },
             bounding_volumes: self.volume_threshold.map_or(VolumeThreshold::Off, VolumeThreshold::MoreThan),
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
             memory: self.memory_limit(),

@@ -14,6 +14,9 @@ pub struct RayCrossing {
     pub times: u32,
 }
 
+/// Crossings a ray that there is room for at first: nearly always enough, and still in the second cache.
+const ROOM: usize = 16;
+
 impl EmbreeScene {
     /// Puts into `found` which transparent primitives each of the segments meets, as Embree sees it, by ray and then
     /// by primitive. A ray that something opaque blocks passes through nothing.
@@ -33,7 +36,7 @@ impl EmbreeScene {
             return Err(Error::Embree(format!("{} rays are too many", rays.len())));
         }
         let mut blocked = vec![false; rays.len()];
-        let mut crossings = vec![ffi::LbCrossing::default(); rays.len().max(16)];
+        let mut crossings = vec![ffi::LbCrossing::default(); ROOM * rays.len()];
         loop {
             let count = self.collect(rays, options, &mut blocked, &mut crossings)?;
             if count <= crossings.len() {
@@ -47,7 +50,8 @@ impl EmbreeScene {
         let passed = crossings.iter().filter(|crossing| !blocked[crossing.ray as usize]);
         found.extend(passed.map(|c| RayCrossing { ray: c.ray, primitive: c.primitive, times: c.times }));
         found.sort_unstable();
-        // Embree may meet a primitive in several leaves of its tree, and asks about it in each.
+        // Embree may come upon a primitive several times, in several leaves of its tree or in coherent packets, and
+        // tells of it each time.
         found.dedup();
         Ok(())
     }

@@ -109,7 +109,7 @@ fn bounds(shape: &Shape) -> (Vec3, Vec3) {
     let Shape::Plane(plane) = shape else {
         return shape.bounds().expect("everything but a plane has an end");
     };
-    // A plane along the coordinates is as flat as they are: most floors are such, and a tree of flat boxes is a good one.
+    // A plane along the coordinates has a flat box, which rays pass by. Most floors are such.
     let across = |axis: usize| (0..3).all(|other| other == axis || plane.normal[other] == 0.0);
     let end = |sign: f32| {
         let coordinate = |axis: usize| if across(axis) { plane.point[axis] } else { sign * END_OF_PLANES };

@@ -10,8 +10,8 @@ use crate::{Error, Result};
 /// is empty and nothing blocks it. The direction need not have length 1: with the light minus the origin as direction,
 /// `t_far` is 1 at the light.
 ///
-/// A triangle met at exactly `t_far` blocks. One met at exactly `t_near` blocks in a robust scene and does not in a fast
-/// one (Embree 3.13.5 and 4.3.3). Curved surfaces block at both ends.
+/// A triangle met at exactly `t_far` blocks. One met at exactly `t_near` blocks in a robust scene and does not in a
+/// fast one (Embree 3.13.5 and 4.3.3). Curved surfaces block at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct ShadowRay {

@@ -171,6 +171,9 @@ pub fn statistics<'a>(
         if c.volume_tests > 0 {
             let _ = write!(text, "; {:.2} bounding volumes", a_query(c.volume_tests));
         }
+        if c.coherence_hits > 0 {
+            let _ = write!(text, "; {:.4} by the last occluder", a_query(c.coherence_hits));
+        }
         text.push('\n');
         for (name, value) in &run.statistics {
             let _ = writeln!(text, "  {name}: {value}");

@@ -1,7 +1,7 @@
 //! From what loaders read to a checked [`Scene`].
 
 use super::{AlphaMask, Camera, Coverage, Light, Material, Object, Scene, Shadowing};
-use super::{CurvedPrimitive, TextureCoordinates, Triangle};
+use super::{CurvedPrimitive, Mapping, Texture, TextureCoordinates, Triangle};
 use crate::error::{Error, Result};
 use crate::geometry::curved::Shape;
 use glam::Vec3;
@@ -48,7 +48,7 @@ pub struct ObjectInput {
     pub curved: Vec<Shape>,
     /// Shading normals, if the file has them.
     pub normals: Option<SmoothNormals>,
-    /// Where the corners lie in the material's alpha mask; must be there if it has one.
+    /// Where the corners lie in the material's alpha mask or texture; must be there if it has a mask.
     pub texture_coordinates: Option<TextureCoordinates>,
     /// Its part in shadows.
     pub shadowing: Shadowing,
@@ -152,6 +152,25 @@ impl SceneBuilder {
         self.scene.alpha_masks.len() as u32 - 1
     }
 
+    /// Adds a texture and returns its index, for [`Material::texture`].
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if it has a [defect](Texture::defect).
+    pub fn add_texture(&mut self, texture: Texture) -> Result<u32> {
+        if let Some(why) = texture.defect() {
+            return Err(Error::Usage(format!("texture {}: {why}", self.scene.textures.len())));
+        }
+        self.scene.textures.push(texture);
+        Ok(self.scene.textures.len() as u32 - 1)
+    }
+
+    /// Adds textures that are without defects already, and returns the index of the first.
+    pub(super) fn adopt_textures(&mut self, textures: &[Texture]) -> u32 {
+        let first = self.scene.textures.len() as u32;
+        self.scene.textures.extend_from_slice(textures);
+        first
+    }
+
     /// Adds a light; a name that is taken gets a number.
     pub fn add_light(&mut self, light: Light) {
         let name = self.light_names.take(light.name);
@@ -192,7 +211,7 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// [`Error::Usage`] if an index is out of range, the material has an alpha mask and the object no texture
-    /// coordinates for it, one of those is not finite, or the scene grows past 2^28 elements.
+    /// coordinates for it, one of those that it needs is not finite, or the scene grows past 2^28 elements.
     pub fn add_object(&mut self, input: ObjectInput) -> Result<()> {
         let scene = &mut self.scene;
         let total = |have: usize, more: usize| have.saturating_add(more) > MAX_ELEMENTS;
@@ -204,13 +223,13 @@ impl SceneBuilder {
         let Some(material) = scene.materials.get(input.material as usize) else {
             return Err(Error::Usage(format!("object {}: no material {}", input.name, input.material)));
         };
-        let masked = is_masked(&input, material, scene.alpha_masks.len())?;
+        let keeps_coordinates = needs_coordinates(&input, material, scene)?;
         check_indices(&input)?;
         let base = scene.vertices.len() as u32;
         let object = scene.objects.len() as u32;
         let first = scene.triangles.len() as u32;
         let (mut normal_corners, mut texture_corners) = (Vec::new(), Vec::new());
-        let texture_coordinates = input.texture_coordinates.filter(|_| masked);
+        let texture_coordinates = input.texture_coordinates.filter(|_| keeps_coordinates);
         for (index, triangle) in input.triangles.iter().enumerate() {
             let points = triangle.map(|v| input.positions[v as usize]);
             if !points.iter().all(|p| p.is_finite()) {
@@ -275,18 +294,29 @@ impl SceneBuilder {
     }
 }
 
-/// Whether a material has one of `masks` alpha masks, and the object what that needs.
-fn is_masked(input: &ObjectInput, material: &Material, masks: usize) -> Result<bool> {
-    let Coverage::Masked(mask) = material.coverage else { return Ok(false) };
+/// Whether a material looks at an object's texture coordinates, which then are what they must be.
+fn needs_coordinates(input: &ObjectInput, material: &Material, scene: &Scene) -> Result<bool> {
     let wrong = |what: String| Err(Error::Usage(format!("object {}: {what}", input.name)));
-    if mask as usize >= masks {
-        return wrong(format!("no alpha mask {mask}"));
+    let mut needed = false;
+    if let Some(texture) = material.texture {
+        let Some(texture) = scene.textures.get(texture as usize) else {
+            return wrong(format!("no texture {texture}"));
+        };
+        needed = texture.mapping == Mapping::Coordinates;
     }
-    let Some(given) = &input.texture_coordinates else {
-        return wrong("no texture coordinates for its alpha mask".into());
-    };
-    match given.coordinates.iter().flatten().all(|coordinate| coordinate.is_finite()) {
-        true => Ok(true),
+    if let Coverage::Masked(mask) = material.coverage {
+        if mask as usize >= scene.alpha_masks.len() {
+            return wrong(format!("no alpha mask {mask}"));
+        }
+        if input.texture_coordinates.is_none() {
+            return wrong("no texture coordinates for its alpha mask".into());
+        }
+        needed = true;
+    }
+    let given = input.texture_coordinates.iter().filter(|_| needed);
+    let mut numbers = given.flat_map(|given| given.coordinates.iter().flatten());
+    match numbers.all(|coordinate| coordinate.is_finite()) {
+        true => Ok(needed),
         false => wrong("texture coordinates that are not finite".into()),
     }
 }

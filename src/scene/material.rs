@@ -17,6 +17,8 @@ pub struct Material {
     pub mirror: [f32; 3],
     /// What passes through it; `None` for a surface that lets nothing through.
     pub transmission: Option<Transmission>,
+    /// Index into [`Scene::textures`](super::Scene::textures) of what varies the diffuse colour.
+    pub texture: Option<u32>,
 }
 
 /// How a surface lets light pass.
@@ -50,7 +52,17 @@ impl Default for Material {
             coverage: Coverage::Solid,
             mirror: [0.0; 3],
             transmission: None,
+            texture: None,
         }
+    }
+}
+
+impl Material {
+    /// The same with another diffuse colour, and neither texture nor name.
+    pub(crate) fn painted(&self, diffuse: [f32; 3]) -> Material {
+        let &Material { specular, shininess, coverage, mirror, transmission, .. } = self;
+        let name = String::new();
+        Material { name, diffuse, specular, shininess, coverage, mirror, transmission, texture: None }
     }
 }
 

@@ -1,6 +1,7 @@
 //! One scene put into another, as often as wanted.
 //!
-//! What an object refers to by number is adopted first, once for each scene: materials and alpha masks. Then
+//! What an object refers to by number is adopted first, once for each scene: materials, alpha masks and
+//! textures. Then
 //! objects are placed one by one. An object that is not moved keeps its numbers bit by bit; one that is has
 //! each coordinate computed in f64 and rounded once.
 
@@ -43,17 +44,23 @@ impl Adopted {
 }
 
 impl SceneBuilder {
-    /// Adds the materials and alpha masks of a scene. Its default material is the builder's.
+    /// Adds the materials, alpha masks and textures of a scene. Its default material is the builder's. Textures
+    /// lie where they lie in the scene, wherever its objects go.
     pub fn adopt(&mut self, scene: &Scene) -> Adopted {
         let masks: Vec<u32> =
             scene.alpha_masks.iter().map(|mask| self.add_alpha_mask(mask.clone())).collect();
         let first_mask = masks.first().copied().unwrap_or_default();
+        let first_texture = self.adopt_textures(&scene.textures);
+        let painted = |material: &Material| Material {
+            texture: material.texture.map(|texture| first_texture + texture),
+            ..material.clone()
+        };
         let adopt = |material: &Material| match material.coverage {
             Coverage::Solid if *material == Material::default() => 0,
-            Coverage::Solid => self.add_material(material.clone()),
+            Coverage::Solid => self.add_material(painted(material)),
             Coverage::Masked(mask) => {
                 let coverage = Coverage::Masked(first_mask + mask);
-                self.add_material(Material { coverage, ..material.clone() })
+                self.add_material(Material { coverage, ..painted(material) })
             }
         };
         let materials = scene.materials.iter().map(adopt).collect();
@@ -78,6 +85,18 @@ impl SceneBuilder {
         adopted: &mut Adopted,
         placement: &Placement,
     ) -> Result<()> {
+        let input = self.placed(scene, object, adopted, placement)?;
+        self.add_object(input)
+    }
+
+    /// What [`SceneBuilder::place`] adds.
+    pub(super) fn placed(
+        &mut self,
+        scene: &Scene,
+        object: &Object,
+        adopted: &mut Adopted,
+        placement: &Placement,
+    ) -> Result<ObjectInput> {
         let own = scene.materials[object.material as usize].coverage;
         let material = match (placement.material, own) {
             (None, _) => adopted.material(object.material),
@@ -102,7 +121,7 @@ impl SceneBuilder {
         if let Some(transform) = &placement.transform {
             transform_object(&mut input, transform)?;
         }
-        self.add_object(input)
+        Ok(input)
     }
 }
 

@@ -10,11 +10,13 @@ mod builder;
 mod camera;
 pub mod formats;
 mod framing;
+mod join;
 mod light;
 mod material;
 mod merge;
 mod primitive;
 pub mod procedural;
+mod texture;
 
 pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
@@ -24,6 +26,8 @@ pub use light::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, Spo
 pub use material::{Coverage, Material, Transmission};
 pub use merge::{Adopted, Placement};
 pub use primitive::{CurvedPrimitive, Primitive, PrimitiveIndex};
+pub(crate) use texture::dual;
+pub use texture::{Image, Mapping, Pattern, Texels, Texture};
 
 use glam::Vec3;
 
@@ -55,8 +59,8 @@ pub struct Object {
     pub polygons: u32,
     /// Normals for shading alone; they never decide who sees a light.
     pub normals: Option<SmoothNormals>,
-    /// Where its corners lie in the alpha mask of its material; there if and only if that is
-    /// [`Coverage::Masked`].
+    /// Where its corners lie in the alpha mask or texture of its material; there if it is
+    /// [`Coverage::Masked`], and otherwise at most if its texture lies by [`Mapping::Coordinates`].
     pub texture_coordinates: Option<TextureCoordinates>,
     /// Its part in shadows.
     pub shadowing: Shadowing,
@@ -94,6 +98,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Where masked materials are holes. Each has both opaque texels and holes when it comes from a file.
     pub alpha_masks: Vec<AlphaMask>,
+    /// What materials refer to by [`Material::texture`]; without defects.
+    pub textures: Vec<Texture>,
     /// Lights, in the order of the file; may be empty before [`frame`].
     pub lights: Vec<Light>,
     /// Cameras, in the order of the file; may be empty before [`frame`].
@@ -118,6 +124,7 @@ impl Scene {
             objects: Vec::new(),
             materials: vec![Material::default()],
             alpha_masks: Vec::new(),
+            textures: Vec::new(),
             lights: Vec::new(),
             cameras: Vec::new(),
             background: [0.0; 3],

@@ -9,9 +9,11 @@ mod normal;
 mod picture;
 mod ray_tree;
 mod shade;
+mod texture;
 
 pub use light::{LightSample, sample_light};
 pub use normal::{geometric_normal, normal_at, shading_normal};
 pub use picture::{ShadedPoint, shade_picture};
 pub use ray_tree::{Branch, Kind, RayForest, TreeStatistics, USUAL_DEPTH, branches, reflected, refracted};
 pub use shade::{Ambient, shade};
+pub use texture::surface_colour;

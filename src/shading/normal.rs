@@ -23,7 +23,7 @@ pub fn normal_at(scene: &Scene, primitive: PrimitiveIndex, position: DVec3, view
 }
 
 /// Weights of the corners at a point of the triangle; they add up to 1.
-fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
+pub(super) fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let area = normal.length_squared();
     if area == 0.0 {

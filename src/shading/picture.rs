@@ -1,6 +1,6 @@
 //! A whole picture: every visible point shaded by the lights that it sees.
 
-use super::{Ambient, LightSample, RayForest, normal_at, sample_light, shade};
+use super::{Ambient, LightSample, RayForest, normal_at, sample_light, shade, surface_colour};
 use crate::scene::{Camera, Light, Scene};
 use crate::visibility::SurfacePoint;
 use glam::DVec3;
@@ -92,6 +92,10 @@ fn shade_point(
     let view = -direction.as_dvec3().normalize();
     let normal = normal_at(scene, primitive, point.position, view);
     let material = scene.material(primitive);
-    let radiance = shade(material, normal, view, ambient, samples);
-    ShadedPoint { radiance, normal, albedo: material.diffuse, depth }
+    let albedo = surface_colour(scene, primitive, material, point.position);
+    let radiance = match material.texture {
+        None => shade(material, normal, view, ambient, samples),
+        Some(_) => shade(&material.painted(albedo), normal, view, ambient, samples),
+    };
+    ShadedPoint { radiance, normal, albedo, depth }
 }

@@ -15,6 +15,8 @@ pub struct Counters {
     pub lists: u64,
     /// Queries answered by a cell's full-occlusion depth alone.
     pub full_occlusions: u64,
+    /// Queries answered by the triangle that occluded the point before.
+    pub coherence_hits: u64,
     /// Tests that the float filter left undecided.
     pub undecided: u64,
     /// Tests and cell look-ups that only exact arithmetic decided.
@@ -28,6 +30,7 @@ impl AddAssign for Counters {
         self.cells += other.cells;
         self.lists += other.lists;
         self.full_occlusions += other.full_occlusions;
+        self.coherence_hits += other.coherence_hits;
         self.undecided += other.undecided;
         self.exact += other.exact;
     }

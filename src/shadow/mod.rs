@@ -97,6 +97,17 @@ pub enum VolumeThreshold {
     MoreThan(u32),
 }
 
+/// Whether the light buffer tries the triangle that occluded the last point first (row 20 of the notes on the
+/// 1986 paper). No answer depends on it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum ObjectCoherence {
+    /// Every point for itself.
+    #[default]
+    Off,
+    /// The points of one call of [`ShadowTester::occluded`] one after the other: neighbours should be together.
+    LastOccluder,
+}
+
 /// Cells along the edge of a cube face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Resolution {

@@ -1,8 +1,8 @@
 //! Every shadow tester there is. A tester that is not here is not cross-checked, and a test says so.
 
 use super::{
-    Culling, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold, bounding_volumes, brute_force,
-    exact, light_buffer,
+    Culling, ObjectCoherence, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold,
+    bounding_volumes, brute_force, exact, light_buffer,
 };
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
@@ -37,6 +37,8 @@ pub struct BuildInput<'a> {
     pub culling: Culling,
     /// When lists of cells get bounding-volume records.
     pub bounding_volumes: VolumeThreshold,
+    /// Whether the last occluder is tried first.
+    pub object_coherence: ObjectCoherence,
     /// Embree's settings.
     pub embree: EmbreeSettings,
     /// The most memory that it may need.
@@ -55,6 +57,7 @@ impl<'a> BuildInput<'a> {
             receivers: Receivers::Surfaces,
             culling: Culling::Off,
             bounding_volumes: VolumeThreshold::Off,
+            object_coherence: ObjectCoherence::Off,
             embree: EmbreeSettings::default(),
             memory: MemoryLimit::NONE,
         }

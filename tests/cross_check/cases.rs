@@ -144,6 +144,9 @@ fn boxes() -> Parts {
 const EYE: [f32; 3] = [2.3, 2.7, 4.1];
 const LIGHT: [f32; 3] = [-2.0, 4.0, 1.5];
 
+/// The case of many polygons of several objects in every cell, interleaved in depth.
+pub const CROWDED: &str = "rings through each other and stacked grids";
+
 /// All cases, in a fixed order.
 pub fn all() -> Vec<Case> {
     let up = 2f32.powi(40);
@@ -327,6 +330,18 @@ fn of_solids() -> Vec<Case> {
                 [-1.25, 1.0, 0.125],
                 [1.0, 1.0, 0.0],
             ],
+        )),
+        with_suns(case(
+            CROWDED,
+            Parts::default()
+                .grid(5, 4.0, 0.0)
+                .torus([0.0, 1.0, 0.0], [1.25, 0.5])
+                .torus([0.75, 1.25, 0.0], [1.0, 0.25])
+                .grid(3, 0.75, 1.125)
+                .torus([0.0, 2.0, 0.5], [0.75, 0.375])
+                .cuboid([-0.25, 0.5, -0.25], [0.25, 2.5, 0.25]),
+            EYE,
+            &[LIGHT, [0.0, 4.0, 0.0], [0.0, 1.0, 0.5]],
         )),
         with_suns(case(
             "an eye inside a box",

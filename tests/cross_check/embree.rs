@@ -6,9 +6,9 @@ use crate::runner::{Asked, EMBREE_EPSILON, Setting, ask};
 use glam::DVec3;
 use lightbuffer::embree::{Device, EmbreeMode};
 use lightbuffer::geometry::LightPosition;
-use lightbuffer::shadow::{Basis, Culling, Resolution, TesterEntry, testers};
+use lightbuffer::shadow::{Basis, Resolution, TesterEntry, testers};
 
-const SETTING: Setting = Setting { resolution: Resolution::Cells(1), culling: Culling::Off, threads: 2 };
+const SETTING: Setting = Setting::of(Resolution::Cells(1));
 
 /// The testers whose errors are measured, but for modes that this Embree lacks.
 fn measured() -> Vec<&'static TesterEntry> {

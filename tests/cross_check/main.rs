@@ -1,20 +1,43 @@
 //! Every tester that has a name over the same queries, one by one, against the definition in integers.
 
 mod cases;
+mod curved;
 #[cfg(feature = "embree")]
 mod embree;
 mod random;
 mod runner;
 
-use lightbuffer::shadow::{Basis, Culling, Resolution, TesterEntry, find, testers};
+use lightbuffer::shadow::{
+    Basis, Culling, ObjectCoherence, Resolution, TesterEntry, VolumeThreshold, find, testers,
+};
 use runner::{Asked, Setting, ask};
 
 /// Resolutions from a single cell a face to many more than there are triangles.
 const RESOLUTIONS: [u32; 4] = [1, 7, 64, 1000];
 
 fn setting(resolution: u32) -> Setting {
-    Setting { resolution: Resolution::Cells(resolution), culling: Culling::Off, threads: 2 }
+    Setting::of(Resolution::Cells(resolution))
 }
+
+/// Settings of the light buffer that change what its lists look like or how they are gone through.
+fn ways_through_lists() -> impl Iterator<Item = Setting> {
+    let grouped = [1, 7, 64].into_iter().flat_map(|resolution| {
+        THRESHOLDS.map(|most_single| Setting {
+            bounding_volumes: VolumeThreshold::MoreThan(most_single),
+            ..setting(resolution)
+        })
+    });
+    let coherent = |setting| Setting { object_coherence: ObjectCoherence::LastOccluder, ..setting };
+    let both = Setting {
+        culling: Culling::ClosedSolids,
+        bounding_volumes: VolumeThreshold::MoreThan(0),
+        ..coherent(setting(7))
+    };
+    grouped.chain([1, 64].map(|resolution| coherent(setting(resolution)))).chain([both])
+}
+
+/// More polygons of an object in a cell than this stand behind a bounding volume.
+const THRESHOLDS: [u32; 2] = [6, 0];
 
 #[test]
 fn every_exact_tester_is_right_in_every_case_at_every_resolution() {
@@ -38,6 +61,10 @@ fn every_exact_tester_is_right_in_every_case_at_every_resolution() {
             let setting = Setting { culling: Culling::ClosedSolids, ..setting(resolution) };
             let answers = ask(light_buffer(), &asked, setting);
             asked.assert_equal(&answers, &truth, &format!("culling at R = {resolution}"));
+        }
+        for setting in ways_through_lists() {
+            let answers = ask(light_buffer(), &asked, setting);
+            asked.assert_equal(&answers, &truth, &format!("light-buffer with {setting:?}"));
         }
     }
 }
@@ -66,13 +93,39 @@ fn far_sides_are_culled_unless_the_light_is_inside() {
 }
 
 #[test]
+fn bounding_volumes_stand_in_the_lists_of_crowded_cells() {
+    let cases = cases::all();
+    let crowded = cases.iter().find(|case| case.name == cases::CROWDED).expect("a case");
+    let asked = Asked::of(crowded);
+    for setting in ways_through_lists().filter(|s| s.bounding_volumes != VolumeThreshold::Off) {
+        let records = asked.bounding_volumes(setting);
+        assert!(records.iter().all(|&records| records > 0), "{setting:?}: {records:?}");
+    }
+    assert!(asked.bounding_volumes(setting(1)).iter().all(|&records| records == 0));
+}
+
+#[test]
+fn the_last_occluder_answers_for_many_points() {
+    for case in cases::all() {
+        let asked = Asked::of(&case);
+        let coherent = Setting { object_coherence: ObjectCoherence::LastOccluder, ..setting(1) };
+        assert!(asked.coherence_hits(coherent) > 0, "{}", case.name);
+        assert_eq!(asked.coherence_hits(setting(1)), 0);
+    }
+}
+
+#[test]
 fn masks_do_not_depend_on_threads() {
     for case in cases::all() {
         let asked = Asked::of(&case);
         for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
             let [one, two] = [1, 2].map(|threads| {
-                let culling = Culling::ClosedSolids;
-                ask(entry, &asked, Setting { resolution: Resolution::Auto, culling, threads })
+                let setting = Setting {
+                    culling: Culling::ClosedSolids,
+                    object_coherence: ObjectCoherence::LastOccluder,
+                    ..Setting::of(Resolution::Auto)
+                };
+                ask(entry, &asked, Setting { threads, ..setting })
             });
             assert_eq!(one, two, "{}: {}", case.name, entry.name);
         }
@@ -123,5 +176,6 @@ fn buffers_pass_their_own_audit() {
                 asked.audit(Setting { culling, ..setting(resolution) });
             }
         }
+        ways_through_lists().for_each(|setting| asked.audit(setting));
     }
 }

@@ -4,7 +4,7 @@ use crate::cases::{Case, lamp, soup, sun};
 use crate::runner::{Asked, Setting, ask};
 use glam::Vec3;
 use lightbuffer::scene::{Camera, ImageSize, Shadowing};
-use lightbuffer::shadow::{Basis, Culling, Resolution, testers};
+use lightbuffer::shadow::{Basis, Culling, ObjectCoherence, Resolution, VolumeThreshold, testers};
 use proptest::prelude::*;
 
 fn grid_point() -> impl Strategy<Value = Vec3> {
@@ -81,9 +81,21 @@ proptest! {
         let truth = asked.plain_truth();
         for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
             for culling in [Culling::Off, Culling::ClosedSolids] {
-                let setting = Setting { resolution: Resolution::Cells(resolution), culling, threads: 1 };
+                let setting =
+                    Setting { culling, threads: 1, ..Setting::of(Resolution::Cells(resolution)) };
                 let answers = ask(entry, &asked, setting);
-                prop_assert_eq!(&answers, &truth, "{} at R = {}, {:?}", entry.name, resolution, culling);
+                prop_assert_eq!(&answers, &truth, "{} with {:?}", entry.name, setting);
+            }
+            let thresholds: &[u32] = if entry.name == "light-buffer" { &[0, 2] } else { &[] };
+            for &most_single in thresholds {
+                let setting = Setting {
+                    bounding_volumes: VolumeThreshold::MoreThan(most_single),
+                    object_coherence: ObjectCoherence::LastOccluder,
+                    threads: 1,
+                    ..Setting::of(Resolution::Cells(resolution))
+                };
+                let answers = ask(entry, &asked, setting);
+                prop_assert_eq!(&answers, &truth, "{} with {:?}", entry.name, setting);
             }
         }
     }

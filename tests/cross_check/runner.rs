@@ -2,13 +2,17 @@
 
 use crate::cases::Case;
 use lightbuffer::geometry::LightPosition;
-use lightbuffer::measure::answer;
-use lightbuffer::scene::Light;
+use lightbuffer::measure::{Question, answer};
+use lightbuffer::scene::{Light, PrimitiveIndex};
+use lightbuffer::shading::RayForest;
 use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
 use lightbuffer::shadow::light_buffer::LightBuffer;
-use lightbuffer::shadow::{BuildInput, Culling, EmbreeSettings, Resolution, SceneIndex, TesterEntry};
+use lightbuffer::shadow::{
+    BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, TesterEntry,
+    VolumeThreshold,
+};
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
 
 /// Checksum of the masks of all cases, the same in every build profile.
@@ -18,11 +22,26 @@ pub const RECORDED_CHECKSUM: u64 = 13_875_451_308_638_135_911;
 pub const EMBREE_EPSILON: f32 = 1e-4;
 
 /// How a tester is built and run.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Setting {
     pub resolution: Resolution,
     pub culling: Culling,
+    pub bounding_volumes: VolumeThreshold,
+    pub object_coherence: ObjectCoherence,
     pub threads: usize,
+}
+
+impl Setting {
+    /// A resolution, everything else as usual, in two threads.
+    pub const fn of(resolution: Resolution) -> Setting {
+        Setting {
+            resolution,
+            culling: Culling::Off,
+            bounding_volumes: VolumeThreshold::Off,
+            object_coherence: ObjectCoherence::Off,
+            threads: 2,
+        }
+    }
 }
 
 /// A case with its queries: what its camera sees, light by light.
@@ -33,6 +52,16 @@ pub struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
+    /// What the camera sees, and what it sees in mirrors and behind glass by at most so many rays.
+    pub fn with_trees(case: &'a Case, depth: u32) -> Asked<'a> {
+        let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
+        let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
+        let forest = RayForest::grow(&case.scene, visible, case.size.pixels() as u64, depth);
+        let queries =
+            |light: &Light| (light.position(), Queries::new(&case.scene, &forest.nodes, light));
+        Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
+    }
+
     pub fn of(case: &'a Case) -> Asked<'a> {
         let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
         let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
@@ -44,6 +73,8 @@ impl<'a> Asked<'a> {
         BuildInput {
             resolution: setting.resolution,
             culling: setting.culling,
+            bounding_volumes: setting.bounding_volumes,
+            object_coherence: setting.object_coherence,
             embree: EmbreeSettings { epsilon: EMBREE_EPSILON, threads: setting.threads },
             ..BuildInput::new(&self.case.scene, &self.index, light)
         }
@@ -72,6 +103,19 @@ impl<'a> Asked<'a> {
             .collect()
     }
 
+    /// The same, with what the segments of those that are not occluded cross.
+    pub fn plain_truth_all(&self) -> Vec<Answer> {
+        let decide = |(light, queries): &(LightPosition, Queries)| {
+            let plain = PlainTest::new(&self.case.scene, *light, &queries.points);
+            let one = |point| match plain.decide(point) {
+                Occlusion::Occluded => (true, Vec::new()),
+                Occlusion::Lit => (false, plain.crossed(point)),
+            };
+            queries.points.iter().map(one).collect::<Vec<_>>()
+        };
+        self.lights.iter().flat_map(decide).collect()
+    }
+
     /// Fails with the first query, in bits, that is answered differently.
     pub fn assert_equal(&self, answers: &[bool], truth: &[bool], who: &str) {
         assert_eq!(answers.len(), truth.len());
@@ -92,7 +136,7 @@ impl<'a> Asked<'a> {
     /// Answers with the pixel and light they belong to, in an order that no index decides.
     pub fn by_pixel(&self, answers: &[bool]) -> Vec<(usize, u32, bool)> {
         let keys =
-            self.lights.iter().enumerate().flat_map(|(l, (_, q))| q.pixels.iter().map(move |&p| (l, p)));
+            self.lights.iter().enumerate().flat_map(|(l, (_, q))| q.nodes.iter().map(move |&node| (l, node)));
         keys.zip(answers).map(|((light, pixel), &answer)| (light, pixel, answer)).collect()
     }
 
@@ -105,10 +149,26 @@ impl<'a> Asked<'a> {
         }
     }
 
+    /// Bounding-volume records of the light buffers, light by light.
+    pub fn bounding_volumes(&self, setting: Setting) -> Vec<u64> {
+        let count = |(light, _): &(LightPosition, Queries)| {
+            LightBuffer::new(&self.input(*light, setting)).unwrap().counts().bounding_volumes
+        };
+        self.lights.iter().map(count).collect()
+    }
+
+    /// Queries of all lights that the last occluder answers.
+    pub fn coherence_hits(&self, setting: Setting) -> u64 {
+        let hits = |(light, queries): &(LightPosition, Queries)| {
+            let buffer = LightBuffer::new(&self.input(*light, setting)).unwrap();
+            answer(&buffer, &queries.points, Question::Occlusion, &|_| {}).unwrap().counters.coherence_hits
+        };
+        self.lights.iter().map(hits).sum()
+    }
+
     /// Triangles that are culled, light by light.
     pub fn culled(&self) -> Vec<u64> {
-        let setting =
-            Setting { resolution: Resolution::Cells(1), culling: Culling::ClosedSolids, threads: 1 };
+        let setting = Setting { culling: Culling::ClosedSolids, ..Setting::of(Resolution::Cells(1)) };
         let culled = |(light, _): &(LightPosition, Queries)| {
             LightBuffer::new(&self.input(*light, setting)).unwrap().counts().culled
         };
@@ -121,7 +181,23 @@ pub fn ask(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<bool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
     let one_light = |(light, queries): &(LightPosition, Queries)| {
         let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
-        answer(tester.as_ref(), &queries.points, &|_| {}).unwrap().occluded
+        answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| {}).unwrap().occluded
+    };
+    pool.install(|| asked.lights.iter().flat_map(one_light).collect())
+}
+
+/// Whether a point is occluded, and if not, what its segment crosses.
+pub type Answer = (bool, Vec<PrimitiveIndex>);
+
+/// A tester's answers to all queries of a case.
+pub fn ask_all(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<Answer> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
+    let one_light = |(light, queries): &(LightPosition, Queries)| {
+        let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
+        let question = Question::of(&asked.case.scene);
+        let answers = answer(tester.as_ref(), &queries.points, question, &|_| {}).unwrap();
+        let crossed = |i: usize| answers.crossings.as_ref().map_or(Vec::new(), |c| c.of(i).to_vec());
+        answers.occluded.iter().enumerate().map(|(i, &o)| (o, crossed(i))).collect::<Vec<_>>()
     };
     pool.install(|| asked.lights.iter().flat_map(one_light).collect())
 }

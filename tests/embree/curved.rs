@@ -11,8 +11,11 @@ pub fn scene_of(shapes: &[Shape], options: SceneOptions) -> EmbreeScene {
     EmbreeScene::of_parts(&Device::new(1).unwrap(), parts, options).unwrap()
 }
 
-/// One of each kind around the origin, and segments with the number of points at which they meet it.
-fn cases() -> Vec<(Shape, Vec<([f32; 3], [f32; 3], usize)>)> {
+/// The ends of a segment, and at how many points it meets a shape.
+type Case = ([f32; 3], [f32; 3], usize);
+
+/// One of each kind around the origin, and segments.
+fn cases() -> Vec<(Shape, Vec<Case>)> {
     let (x, y, z) = (Vec3::X, Vec3::Y, Vec3::Z);
     let paraboloid = Quadric {
         reference: Vec3::ZERO,
@@ -123,6 +126,7 @@ fn cases() -> Vec<(Shape, Vec<([f32; 3], [f32; 3], usize)>)> {
 
 #[test]
 fn every_shape_is_hit_and_missed_from_all_sides() {
+    let device = Device::new(1).unwrap();
     for (shape, rays) in cases() {
         let expected: Vec<bool> = rays.iter().map(|(_, _, times)| *times > 0).collect();
         let segments: Vec<ShadowRay> = rays.iter().map(|(from, to, _)| segment(*from, *to)).collect();
@@ -135,13 +139,20 @@ fn every_shape_is_hit_and_missed_from_all_sides() {
             assert_answers(&scene, &segments.repeat(7), &expected.repeat(7), &what);
         }
         for (ray, (from, to, times)) in segments.iter().zip(&rays) {
-            // In pieces as well: sums of crossings are those of the whole.
+            // In pieces as well.
             let piece = |t_near, t_far| ShadowRay { t_near, t_far, ..*ray };
             let scene = scene_of(&[shape], options(Receiver::Included));
             let parts = [piece(0.0, 0.37), piece(0.37, 0.73), piece(0.73, 1.0), piece(0.0, f32::INFINITY)];
             let met = ask(&scene, &parts, QUERY);
             assert_eq!(met[..3].contains(&true), *times > 0, "{shape:?} from {from:?} to {to:?}");
             assert!(met[3] || *times == 0);
+            // All of glass, and how often.
+            let parts = SceneParts { curved: &[shape], transparent: &[true], ..SceneParts::default() };
+            let glass = EmbreeScene::of_parts(&device, parts, options(Receiver::Included)).unwrap();
+            let mut found = Vec::new();
+            glass.crossed(&[*ray], QUERY, &mut found).unwrap();
+            let found: Vec<_> = found.iter().map(|crossing| crossing.times as usize).collect();
+            assert_eq!(found, Vec::from_iter((*times > 0).then_some(*times)), "{shape:?} {ray:?}");
         }
     }
 }

@@ -14,6 +14,7 @@ mod ply_files;
 mod ply_writer;
 mod polygon_writers;
 mod same_scene;
+mod toml_curved;
 mod toml_files;
 mod toml_page;
 mod toml_transforms;

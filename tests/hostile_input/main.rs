@@ -16,6 +16,7 @@ mod paths;
 mod ply_files;
 #[path = "../formats/ply_writer.rs"]
 mod ply_writer;
+mod toml_curved;
 mod toml_files;
 
 use lightbuffer::scene::formats;

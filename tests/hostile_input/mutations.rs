@@ -112,7 +112,10 @@ const TOML: &str = "version = 1\n[[include]]\npath = 'part.obj'\nmaterial = 'red
     normals = [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 1, 0], [0, 0, 1]]\nreceive_shadows = false\n[[light]]\ntype = 'spot'\n\
     position = [1, 9, 1]\ntarget = [0, 0, 0]\ninner_degrees = 10\nouter_degrees = 20\nrange = 50\n[[light]]\n\
     type = 'directional'\ntowards = [0, 1, 0]\nirradiance = 2\n[[camera]]\nposition = [0, 1, 5]\ntarget = [0, 0, 0]\n\
-    up = [0, 1, 0]\nvertical_degrees = 50\nsize = [8, 8]\n";
+    up = [0, 1, 0]\nvertical_degrees = 50\nsize = [8, 8]\n[[material]]\nname = 'glass'\ntransmittance = 0.5\nmirror = 0.1\n\
+    texture = { checker = 1, size = 0.5 }\n[[sphere]]\nobject = 'a'\nmaterial = 'glass'\ncentre = [0, 1, 0]\nradius = 2\n\
+    [[quadric]]\nsquares = [1, 0, -1]\nlow = [-1, -1, -1]\nhigh = [1, 1, 1]\n[[cone]]\nobject = 'a'\nbase = [0, 0, 0]\n\
+    base_radius = 1\napex = [0, 1, 0]\ntransform = { scale = 2 }\n";
 
 /// A document with everything that is read.
 fn document() -> Value {

@@ -45,7 +45,10 @@ fn unknown_and_missing_keys_have_lines() {
         &["bad.toml:5: missing field `degrees`"],
     );
     elements_refused("\n[[include]]", &["bad.toml:6: missing field `path`"]);
-    elements_refused("[[camera]]\nposition = [0, 0, 1]", &["bad.toml:5: missing field `target`"]);
+    elements_refused(
+        "[[camera]]\nposition = [0, 0, 1]",
+        &["bad.toml:5: camera 1: expected a `target` or `axes`"],
+    );
     elements_refused("[[light]]\nname = 'a'", &["bad.toml:5: missing field `type`"]);
     elements_refused("[mesh]", &["bad.toml:5: "]);
 }

@@ -10,6 +10,7 @@ pub mod limits;
 mod looking;
 mod nff;
 mod obj;
+mod pictures;
 mod ply;
 pub(super) mod polygon;
 pub(super) mod shading_normals;

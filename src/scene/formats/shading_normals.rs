@@ -33,7 +33,7 @@ pub(in crate::scene) fn repair(
 }
 
 /// Stands in [`SmoothNormals::corners`] for a corner without a normal until [`repair`] has run.
-pub(super) const NO_NORMAL: u32 = u32::MAX;
+pub(in crate::scene) const NO_NORMAL: u32 = u32::MAX;
 
 /// The unit normal of a triangle; y for one of zero area, which is dropped anyway.
 fn face_normal(corners: [Vec3; 3]) -> Vec3 {

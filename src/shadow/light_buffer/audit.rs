@@ -29,7 +29,11 @@ impl LightBuffer<'_> {
             self.validate_lists(lists, &mut audit)?;
         }
         for caster in 0..self.casters.primitives.len() as u32 {
-            let corners = self.scene.corners(self.casters.primitives[caster as usize]);
+            let primitive = self.casters.primitives[caster as usize];
+            if self.scene.is_curved(primitive) {
+                continue;
+            }
+            let corners = self.scene.corners(primitive);
             // Divided first, since a sum of three may overflow.
             let centre = corners[0] / 3.0 + corners[1] / 3.0 + corners[2] / 3.0;
             for point in corners.into_iter().chain([centre]) {

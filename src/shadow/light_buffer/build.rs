@@ -1,28 +1,48 @@
-//! Casting: every triangle into every cell that its projection can touch, then one list a cell.
+//! Casting: every primitive into every cell that its projection can touch, then one list a cell.
 //!
 //! Sides are made only where triangles project, and of a side only the rectangle of cells that they touch.
 //! Lists stand end to end in one array (compressed rows), their starts and the full-occlusion depths in
 //! another.
 
-use super::cell::{self, Candidate, Cover, Dropped, Role};
+use super::cell::{self, Candidate, Cover, Dropped, Role, SelfShadow};
 use super::cells::{Cells, side_grid};
 use super::convex_cover::ConvexObjects;
+use super::cube_coherence::SideBits;
+use super::curved_cast;
 use super::groups::{CellGroups, Group, Grouping};
 use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
+use crate::geometry::curved::Shape;
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::planes::{OrientedPlanes, oriented};
-use crate::scene::PrimitiveIndex;
+use crate::scene::{Primitive, PrimitiveIndex};
 use crate::shadow::{BuildInput, Casters, Receivers, VolumeThreshold};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// A triangle's projection on one side.
+/// A triangle's projection on one side: of a primitive, or of what stands for a curved one.
 pub(super) struct Cast {
     pub role: Role,
     /// The most of a cell that it can cover: not all for what has holes, or only receives.
     most: Cover,
+    pub stands_for: StandsFor,
     pub footprint: Footprint,
+}
+
+/// What is cast by a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum StandsFor {
+    /// Itself.
+    Itself,
+    /// A curved surface inside of the triangle's hull.
+    Hull,
+    /// The same, with the light inside of the hull too.
+    HullAroundLight,
+    /// A curved surface at most so far behind the triangle.
+    Inner {
+        /// In z'.
+        margin: f64,
+    },
 }
 
 /// The part of a side that casters project on: first and last column, first and last row.
@@ -36,7 +56,7 @@ impl Window {
     fn around(casts: &[Cast]) -> Window {
         let join = |a: [u32; 2], b: [u32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
         let empty = Window { columns: [u32::MAX, 0], rows: [u32::MAX, 0] };
-        casts.iter().filter(|cast| cast.role != Role::ReceivesOnly).fold(empty, |w, cast| Window {
+        casts.iter().filter(|cast| cast.role.caster().is_some()).fold(empty, |w, cast| Window {
             columns: join(w.columns, cast.footprint.columns()),
             rows: join(w.rows, cast.footprint.rows()),
         })
@@ -64,13 +84,44 @@ pub(super) fn build(
     cells: &Cells,
     resolution: u32,
 ) -> Result<(Vec<Option<SideLists>>, Statistics)> {
+    let touched = |corners| cells.touched_sides(&casters.space, corners);
+    build_on(input, casters, receiving_only, cells, resolution, touched)
+}
+
+/// A triangle and the sides that it may project on.
+pub(super) struct Part {
+    pub corners: [DVec3; 3],
+    pub role: Role,
+    pub most: Cover,
+    pub stands_for: StandsFor,
+}
+
+/// Casts every triangle on the sides that `touched` says, which are at least those that it has a footprint on.
+pub(super) fn build_on(
+    input: &BuildInput,
+    casters: &Casters,
+    receiving_only: &[PrimitiveIndex],
+    cells: &Cells,
+    resolution: u32,
+    touched: impl Fn([DVec3; 3]) -> SideBits + Sync,
+) -> Result<(Vec<Option<SideLists>>, Statistics)> {
+    let blocking = casters.primitives.par_iter().enumerate();
+    let blocking = blocking.flat_map_iter(|(caster, &p)| parts(input, p, Role::Blocks(caster as u32)));
+    let receiving = receiving_only.par_iter().flat_map_iter(|&p| parts(input, p, Role::ReceivesOnly));
+    let sided = |part: Part| (touched(part.corners), part);
+    let parts: Vec<(SideBits, Part)> = blocking.chain(receiving).map(sided).collect();
+    let curved = parts.iter().any(|(_, part)| part.stands_for != StandsFor::Itself);
     let grid = side_grid(resolution);
-    let convex = ConvexObjects::new(input, casters);
-    let grouping = Grouping::new(input, casters);
+    let rules = Rules {
+        convex: ConvexObjects::new(input, casters),
+        grouping: Grouping::new(input, casters),
+        curved: if curved { Curved::Some } else { Curved::None },
+    };
+    let receivers = receivers(input);
     let mut statistics = Statistics { resolution, ..Statistics::default() };
     let mut sides = Vec::with_capacity(cells.sides());
     for side in 0..cells.sides() {
-        let casts = project(input, casters, receiving_only, &cells.frame(side), &grid);
+        let casts = project(casters, &parts, side, &cells.frame(side), &grid);
         let window = Window::around(&casts);
         if window.is_empty() {
             sides.push(None);
@@ -80,30 +131,73 @@ pub(super) fn build(
         let bands = bands(&window);
         let lists: Vec<Band> = bands
             .into_par_iter()
-            .map(|rows| fill_band(&casts, &grid, &window, rows, input.receivers, &convex, grouping.as_ref()))
+            .map(|rows| fill_band(&casts, &grid, &window, rows, receivers, &rules))
             .collect();
         sides.push(Some(join(&window, lists, &mut statistics)?));
     }
     Ok((sides, statistics))
 }
 
+/// What the lists of all sides are made by.
+struct Rules {
+    convex: ConvexObjects,
+    grouping: Option<Grouping>,
+    curved: Curved,
+}
+
+/// Whether any of the casts stand for curved surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Curved {
+    None,
+    Some,
+}
+
+/// Where queries come from: a plane without end is a receiver that no cell's list holds, so that nothing may
+/// be left out on its account.
+fn receivers(input: &BuildInput) -> Receivers {
+    let endless = input.scene.curved.iter().any(|curved| matches!(curved.shape, Shape::Plane(_)));
+    if endless { Receivers::Anywhere } else { input.receivers }
+}
+
+/// The triangles that are cast for a primitive; none for a plane without end.
+fn parts(input: &BuildInput, primitive: PrimitiveIndex, role: Role) -> Vec<Part> {
+    match input.scene.primitive(primitive) {
+        Primitive::Triangle(corners) => {
+            let has_gaps = role == Role::ReceivesOnly
+                || input.scene.masked(primitive).is_some()
+                || input.scene.is_transparent(primitive);
+            let most = if has_gaps { Cover::Part } else { Cover::Whole };
+            let corners = oriented(input.light, corners);
+            let corners = corners.map(|corners| corners.map(Vec3::as_dvec3));
+            let part = |corners| Part { corners, role, most, stands_for: StandsFor::Itself };
+            corners.map(part).into_iter().collect()
+        }
+        Primitive::Curved(shape) => {
+            let mut parts = curved_cast::parts(shape, input.light, role);
+            if let (Role::Blocks(caster), false) = (role, input.scene.is_transparent(primitive)) {
+                parts.extend(curved_cast::inner_parts(shape, input.light, caster));
+            }
+            parts
+        }
+    }
+}
+
 fn project(
-    input: &BuildInput,
     casters: &Casters,
-    receiving_only: &[PrimitiveIndex],
+    parts: &[(SideBits, Part)],
+    side: usize,
     frame: &Frame,
     grid: &Grid,
 ) -> Vec<Cast> {
-    let cast = |primitive: PrimitiveIndex, role: Role| {
-        let corners = oriented(casters.space.light(), input.scene.corners(primitive))?;
-        let planes = OrientedPlanes::new(&casters.space, corners.map(Vec3::as_dvec3));
-        let has_gaps = role == Role::ReceivesOnly || input.scene.masked(primitive).is_some();
-        let most = if has_gaps { Cover::Part } else { Cover::Whole };
-        Some(Cast { role, most, footprint: Footprint::new(grid, frame, &planes)? })
+    let cast = |(_, part): &(SideBits, Part)| {
+        let planes = match part.stands_for {
+            StandsFor::Itself => OrientedPlanes::new(&casters.space, part.corners),
+            _ => OrientedPlanes::of_hull_for(&casters.space, part.corners)?,
+        };
+        let footprint = Footprint::new(grid, frame, &planes)?;
+        Some(Cast { role: part.role, most: part.most, stands_for: part.stands_for, footprint })
     };
-    let blocking = casters.primitives.par_iter().enumerate();
-    let blocking = blocking.filter_map(|(caster, &t)| cast(t, Role::Blocks(caster as u32)));
-    blocking.chain(receiving_only.par_iter().filter_map(|&t| cast(t, Role::ReceivesOnly))).collect()
+    parts.par_iter().filter(|(sides, _)| sides >> side & 1 == 1).filter_map(cast).collect()
 }
 
 /// Checks what the lists of one side can need before they are made: an entry and its place in the order for
@@ -157,8 +251,7 @@ fn fill_band(
     window: &Window,
     rows: [u32; 2],
     receivers: Receivers,
-    convex: &ConvexObjects,
-    grouping: Option<&Grouping>,
+    rules: &Rules,
 ) -> Band {
     let width = window.width();
     let cells = width * (rows[1] - rows[0] + 1) as usize;
@@ -188,21 +281,25 @@ fn fill_band(
                 let cast = &casts[entries[index as usize].1 as usize];
                 candidate(cast, grid, column, row)
             }));
-            let touching = candidates.iter().filter(|c| c.role != Role::ReceivesOnly).count();
+            let footprint = |k: usize| &casts[entries[members[k] as usize].1 as usize].footprint;
             let single = candidates
                 .iter()
                 .filter(|c| c.cover == Cover::Whole)
                 .map(|c| c.far)
                 .fold(f32::INFINITY, f32::min);
-            let footprint = |k: usize| &casts[entries[members[k] as usize].1 as usize].footprint;
-            let whole_object = convex.cover_depth(&candidates, footprint, grid, column, row);
-            let finished = cell::finish(&mut candidates, single.min(whole_object), receivers);
+            let mut cover = single.min(rules.convex.cover_depth(&candidates, footprint, grid, column, row));
+            if rules.curved == Curved::Some {
+                cover = cover.min(curved_cast::cover_depth(&candidates, footprint, grid, column, row));
+                curved_cast::join(&mut candidates);
+            }
+            let touching = candidates.iter().filter(|c| c.role.caster().is_some()).count();
+            let finished = cell::finish(&mut candidates, cover, receivers);
             let start = band.records.len();
             band.headers.push(Header { start: start as u32, full_occlusion: finished.full_occlusion });
             let record = |c: &Candidate| Some(Record { near: c.near, caster: c.role.caster()? });
             band.records.extend(candidates.iter().filter_map(record));
             band.statistics.add_cell(touching, &candidates, finished);
-            if let Some(grouping) = grouping {
+            if let Some(grouping) = &rules.grouping {
                 let groups = grouping.group(&mut band.records[start..]);
                 band.statistics.bounding_volumes += groups.len() as u64;
                 band.groups.push_cell(groups);
@@ -249,10 +346,17 @@ fn starts(cells: usize, entries: &[(u32, u32)]) -> Vec<u32> {
 }
 
 fn candidate(cast: &Cast, grid: &Grid, column: u32, row: u32) -> Candidate {
-    let [near, far] = cast.footprint.z_bounds(grid, column, row);
+    let [mut near, mut far] = cast.footprint.z_bounds(grid, column, row);
+    match cast.stands_for {
+        StandsFor::Itself | StandsFor::Hull => {}
+        StandsFor::HullAroundLight => near = 0.0,
+        StandsFor::Inner { margin } => far += margin,
+    }
+    let self_shadow =
+        if cast.stands_for == StandsFor::Itself { SelfShadow::Never } else { SelfShadow::Perhaps };
     let covers = cast.most == Cover::Whole && cast.footprint.covers(grid, column, row);
     let cover = if covers { Cover::Whole } else { Cover::Part };
-    Candidate { near: round_down(near), far: round_up(far), role: cast.role, cover }
+    Candidate { near: round_down(near), far: round_up(far), role: cast.role, cover, self_shadow }
 }
 
 /// The largest f32 not above a number.

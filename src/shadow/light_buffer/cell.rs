@@ -15,6 +15,17 @@ pub struct Candidate {
     pub role: Role,
     /// How much of the cell its projection covers.
     pub cover: Cover,
+    /// Whether it can shadow points of its own.
+    pub self_shadow: SelfShadow,
+}
+
+/// Whether a primitive can block light that goes to itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SelfShadow {
+    /// A flat one cannot.
+    Never,
+    /// A curved one perhaps, on the inside of its far side.
+    Perhaps,
 }
 
 /// What a triangle is in a cell for.
@@ -22,6 +33,8 @@ pub struct Candidate {
 pub enum Role {
     /// To block: the caster with this index.
     Blocks(u32),
+    /// To cover: a polygon inside of the caster with this index. It has no record.
+    Covers(u32),
     /// To be asked about. It has no record, but shadows may fall on it.
     ReceivesOnly,
 }
@@ -31,7 +44,7 @@ impl Role {
     pub fn caster(self) -> Option<u32> {
         match self {
             Role::Blocks(caster) => Some(caster),
-            Role::ReceivesOnly => None,
+            Role::Covers(_) | Role::ReceivesOnly => None,
         }
     }
 }
@@ -83,7 +96,7 @@ pub fn finish(candidates: &mut Vec<Candidate>, cover_depth: f32, receivers: Rece
     let mut finished = Finished { full_occlusion: cover_depth, pruned, dropped: Dropped::Nothing };
     if receivers == Receivers::Surfaces && is_nothing_behind {
         // Every receiver is on one of the candidates. Alone, a triangle shadows nothing in its own plane.
-        if candidates.len() == 1 && blocks(&candidates[0]) {
+        if candidates.len() == 1 && blocks(&candidates[0]) && candidates[0].self_shadow == SelfShadow::Never {
             candidates.clear();
             finished.full_occlusion = f32::INFINITY;
             finished.dropped = Dropped::List;
@@ -101,7 +114,8 @@ mod tests {
     use super::*;
 
     fn candidate(near: f32, far: f32, caster: u32) -> Candidate {
-        Candidate { near, far, role: Role::Blocks(caster), cover: Cover::Part }
+        let (role, cover) = (Role::Blocks(caster), Cover::Part);
+        Candidate { near, far, role, cover, self_shadow: SelfShadow::Never }
     }
 
     fn receiver(near: f32, far: f32) -> Candidate {

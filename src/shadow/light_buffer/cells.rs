@@ -5,6 +5,7 @@
 //! them may be looked up, since triangles are entered into every closed cell that they meet (rows 1 and 13).
 
 use super::cube::{self, Face};
+use super::cube_coherence::{SideBits, touched_sides};
 use super::sheet::Sheet;
 use crate::geometry::exact_number::ExactNumber;
 use crate::geometry::footprint::{Frame, Grid};
@@ -37,7 +38,7 @@ pub struct Located {
 }
 
 impl Cells {
-    /// The cells of a light, around all that is cast: every corner of every caster.
+    /// The cells of a light, around all that is cast: every corner of every caster, or of a box around it.
     pub fn new(space: &LightSpace, corners: impl Iterator<Item = Vec3>) -> Cells {
         match space.light() {
             LightPosition::At(_) => Cells::Cube,
@@ -49,6 +50,14 @@ impl Cells {
     pub fn sides(&self) -> usize {
         match self {
             Cells::Cube => Face::ALL.len(),
+            Cells::Sheet(_) => 1,
+        }
+    }
+
+    /// The sides that a triangle may project on, a bit each: a superset.
+    pub(super) fn touched_sides(&self, space: &LightSpace, corners: [DVec3; 3]) -> SideBits {
+        match self {
+            Cells::Cube => touched_sides(corners.map(|p| p - space.origin().as_dvec3())),
             Cells::Sheet(_) => 1,
         }
     }

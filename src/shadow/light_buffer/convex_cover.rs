@@ -26,10 +26,13 @@ impl ConvexObjects {
     /// are no near sides.
     pub fn new(input: &BuildInput, casters: &Casters) -> ConvexObjects {
         let scene = input.scene;
-        let object_of = |primitive: PrimitiveIndex| scene.triangles[primitive as usize].object;
+        let object_of = |primitive: PrimitiveIndex| scene.object_index(primitive);
         let mut cast = vec![0; scene.objects.len()];
         input.index.casting.iter().for_each(|&primitive| cast[object_of(primitive) as usize] += 1);
         let object_before = |&primitive: &PrimitiveIndex| {
+            if scene.is_curved(primitive) {
+                return None;
+            }
             let object = object_of(primitive);
             let Object { first, count, .. } = scene.objects[object as usize];
             let convexity = input.index.convexity[object as usize].as_ref()?;

@@ -12,25 +12,35 @@ pub mod cells;
 mod convex_cover;
 mod convex_self;
 pub mod cube;
+mod cube_coherence;
+mod curved_cast;
 mod groups;
 mod roles;
 pub mod sheet;
 #[cfg(test)]
 mod tests;
+mod transparent;
 mod walk;
 
 pub use audit::Audit;
 
-use super::{Basis, BuildInput, Casters, Counters, Receivers, Resolution, ShadowTester, TesterEntry};
+use super::{
+    Basis, BuildInput, Casters, Counters, Crossings, ObjectCoherence, Receivers, Resolution, ShadowTester,
+    TesterEntry,
+};
 use crate::error::{Error, Result};
+use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::volume::Volume;
-use crate::scene::Scene;
+use crate::scene::{Primitive, Scene};
+use crate::shadow::bounding_volumes::is_endless;
 use crate::visibility::SurfacePoint;
 use cells::Cells;
 use convex_self::HarmlessObjects;
+use glam::Vec3;
 use groups::{CellGroups, Group};
 use roles::Roles;
+use transparent::TransparentLists;
 
 /// `light-buffer` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -65,7 +75,7 @@ struct Header {
 }
 
 /// The lists of the part of one side that triangles project on.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct SideLists {
     first: [u32; 2],
     count: [u32; 2],
@@ -111,6 +121,8 @@ pub struct Statistics {
     pub non_empty: u64,
     /// Records in all lists: the paper's list items.
     pub records: u64,
+    /// Records of transparent primitives; they are not among the records.
+    pub transparent_records: u64,
     /// Bounding-volume records; they are not among the records.
     pub bounding_volumes: u64,
     /// Records in the longest list.
@@ -131,6 +143,11 @@ pub struct LightBuffer<'a> {
     receivers: Receivers,
     casters: Casters,
     harmless: HarmlessObjects,
+    coherence: ObjectCoherence,
+    /// Casters without end, which no cell lists: all of them may block any point.
+    endless: Vec<u32>,
+    /// What attenuates light, if the scene has such.
+    transparent: Option<TransparentLists>,
     /// The volume of each object; empty if no list has bounding-volume records.
     volumes: Vec<Option<Volume>>,
     cells: Cells,
@@ -155,19 +172,22 @@ impl<'a> LightBuffer<'a> {
                 )));
             }
         };
-        let corners = casters.primitives.iter().flat_map(|&primitive| input.scene.corners(primitive));
-        let cells = Cells::new(&casters.space, corners);
+        let cells = Cells::new(&casters.space, corners(input.scene, &casters));
         // Lists are checked when their length is known.
         let headers = cells.sides() as u64 * u64::from(resolution).pow(2) * size_of::<Header>() as u64;
         input.memory.check(format!("a light buffer of {resolution} cells along an edge"), headers)?;
         let volumes = groups::object_volumes(input, &casters);
         let (sides, statistics) = build::build(input, &casters, &roles.receiving_only, &cells, resolution)?;
         let statistics = Statistics { culled: roles.culled, ..statistics };
+        let endless = endless(input.scene, &casters);
         Ok(LightBuffer {
             scene: input.scene,
             receivers: input.receivers,
             casters,
             harmless: HarmlessObjects::new(input),
+            coherence: input.object_coherence,
+            endless,
+            transparent: TransparentLists::new(input, resolution)?,
             volumes,
             cells,
             sides,
@@ -177,42 +197,119 @@ impl<'a> LightBuffer<'a> {
 
     /// What was built.
     pub fn counts(&self) -> Statistics {
-        self.statistics
+        let mut counts = self.statistics;
+        if let Some(transparent) = &self.transparent {
+            counts.transparent_records = transparent.records();
+        }
+        counts
     }
 
-    /// Whether one point is occluded.
-    fn is_occluded(&self, point: &SurfacePoint, counters: &mut Counters) -> bool {
-        let space = &self.casters.space;
-        let query = PreciseQuery::new(space, point.position, || point.exact(self.scene));
-        let resolution = self.statistics.resolution;
-        let Some((at, exactly)) = self.cells.locate(space, point.position, resolution, &query) else {
-            return false;
+    /// What occludes a point.
+    fn occluder<F: Fn() -> ExactPosition>(
+        &self,
+        point: &SurfacePoint,
+        query: &PreciseQuery<F>,
+        counters: &mut Counters,
+    ) -> Occluder {
+        if !self.endless.is_empty() {
+            let asked = self.asked(point, query);
+            if let Some(&caster) = self.endless.iter().find(|&&caster| self.blocks(caster, &asked, counters))
+            {
+                return Occluder::Caster(caster);
+            }
+        }
+        let (space, resolution) = (&self.casters.space, self.statistics.resolution);
+        let Some((at, exactly)) = self.cells.locate(space, point.position, resolution, query) else {
+            return Occluder::Nothing;
         };
         counters.cells += 1;
         counters.exact += u64::from(exactly);
-        let Some(lists) = &self.sides[at.side] else { return false };
-        let Some(cell) = lists.cell(at.column, at.row) else { return false };
+        let Some(lists) = &self.sides[at.side] else { return Occluder::Nothing };
+        let Some(cell) = lists.cell(at.column, at.row) else { return Occluder::Nothing };
         let (full_occlusion, list) = lists.list(cell);
         if f64::from(full_occlusion) < at.z_low {
             counters.full_occlusions += 1;
-            return true;
+            return Occluder::FullOcclusion;
         }
         counters.lists += u64::from(!list.is_empty());
-        let asked = self.asked(point, &query);
-        self.blocking_caster(list, lists.groups.of(cell), &asked, at.z_high, counters).is_some()
+        let asked = self.asked(point, query);
+        let blocking = self.blocking_caster(list, lists.groups.of(cell), &asked, at.z_high, counters);
+        blocking.map_or(Occluder::Nothing, Occluder::Caster)
     }
+
+    /// Whether a point is occluded. With object coherence (row 20) `last` is the caster that occluded the one
+    /// before, if it is known, and is tried first: by the whole predicate, so that no answer depends on it.
+    fn is_occluded(
+        &self,
+        point: &SurfacePoint,
+        last: Option<&mut Option<u32>>,
+        counters: &mut Counters,
+    ) -> bool {
+        let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
+        let Some(last) = last else { return self.occluder(point, &query, counters) != Occluder::Nothing };
+        if let Some(caster) = *last
+            && self.blocks(caster, &self.asked(point, &query), counters)
+        {
+            counters.coherence_hits += 1;
+            return true;
+        }
+        let occluder = self.occluder(point, &query, counters);
+        *last = match occluder {
+            Occluder::Caster(caster) => Some(caster),
+            Occluder::FullOcclusion | Occluder::Nothing => None,
+        };
+        occluder != Occluder::Nothing
+    }
+}
+
+/// Corners of all casters that have an end, or of boxes around them.
+fn corners<'c>(scene: &'c Scene, casters: &'c Casters) -> impl Iterator<Item = Vec3> + 'c {
+    casters.primitives.iter().flat_map(|&p| match scene.primitive(p) {
+        Primitive::Triangle(corners) => corners.to_vec(),
+        Primitive::Curved(shape) => shape.bounds().map_or(Vec::new(), |(low, high)| {
+            let corner = |i: usize| Vec3::from_array([0, 1, 2].map(|k| [low, high][i >> k & 1][k]));
+            (0..8).map(corner).collect()
+        }),
+    })
+}
+
+/// Casters without end.
+fn endless(scene: &Scene, casters: &Casters) -> Vec<u32> {
+    let is_endless = |caster: &u32| is_endless(scene, casters.primitives[*caster as usize]);
+    (0..casters.primitives.len() as u32).filter(is_endless).collect()
+}
+
+/// What keeps the light from a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Occluder {
+    Nothing,
+    /// What covers the whole cell.
+    FullOcclusion,
+    /// The caster with this index.
+    Caster(u32),
 }
 
 impl ShadowTester for LightBuffer<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
         let mut counters = Counters::default();
+        let mut last = None;
         for (point, answer) in points.iter().zip(answers) {
             if self.receivers == Receivers::Surfaces && point.primitive().is_none() {
                 return Err(Error::Usage(
                     "light buffer: built for points on surfaces; build it with Receivers::Anywhere".into(),
                 ));
             }
-            *answer = self.is_occluded(point, &mut counters);
+            let last = (self.coherence == ObjectCoherence::LastOccluder).then_some(&mut last);
+            *answer = self.is_occluded(point, last, &mut counters);
+        }
+        Ok(counters)
+    }
+
+    fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        let mut counters = Counters::default();
+        for point in points {
+            let lists = self.transparent.as_ref();
+            crossings.push(lists.map_or(Vec::new(), |lists| lists.crossed(self.scene, point, &mut counters)));
         }
         Ok(counters)
     }
@@ -220,12 +317,13 @@ impl ShadowTester for LightBuffer<'_> {
     fn bytes(&self) -> usize {
         self.casters.bytes()
             + self.harmless.bytes()
+            + self.transparent.as_ref().map_or(0, TransparentLists::bytes)
             + self.volumes.len() * size_of::<Option<Volume>>()
             + self.sides.iter().flatten().map(SideLists::bytes).sum::<usize>()
     }
 
     fn statistics(&self) -> Vec<(&'static str, String)> {
-        let s = &self.statistics;
+        let s = &self.counts();
         let all_cells = self.cells.sides() as f64 * f64::from(s.resolution).powi(2);
         vec![
             ("resolution", s.resolution.to_string()),
@@ -233,6 +331,7 @@ impl ShadowTester for LightBuffer<'_> {
             ("sides built", s.sides.to_string()),
             ("cells built", s.cells.to_string()),
             ("list items", s.records.to_string()),
+            ("transparent list items", s.transparent_records.to_string()),
             ("bounding-volume records", s.bounding_volumes.to_string()),
             ("list items per square", format!("{:.3}", s.records as f64 / all_cells)),
             ("non-empty squares", format!("{:.1} %", 100.0 * s.non_empty as f64 / all_cells)),

@@ -1,7 +1,7 @@
 //! What is cast, and what takes part because a shadow can fall on it alone (rows 4, 10 and 11 of the notes on
 //! the 1986 paper).
 
-use crate::scene::PrimitiveIndex;
+use crate::scene::{Object, PrimitiveIndex};
 use crate::shadow::{BuildInput, Culling, Receivers};
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use std::borrow::Cow;
 pub(super) struct Roles<'a> {
     /// Triangles that are cast.
     pub casting: Cow<'a, [PrimitiveIndex]>,
-    /// Triangles that are not, but that may be asked about: the simplifications of a cell's list hold only if
+    /// Primitives that are not, but that may be asked about, transparent ones among them: the simplifications of a cell's list hold only if
     /// these are seen too. Empty if nothing is simplified.
     pub receiving_only: Vec<PrimitiveIndex>,
     /// Triangles that would be cast, were they not the far sides of solids.
@@ -31,10 +31,18 @@ impl<'a> Roles<'a> {
         };
         let receiving_only = match input.receivers {
             Receivers::Surfaces => {
-                let others = scene.objects.iter().filter(|object| !object.shadowing.casts);
-                let triangles = others.flat_map(|object| object.first..object.first + object.count);
-                let may_be_asked = |&triangle: &PrimitiveIndex| scene.object(triangle).shadowing.receives;
-                triangles.chain(culled.iter().copied()).filter(may_be_asked).collect()
+                let first_curved = scene.triangles.len() as u32;
+                let is_other = |object: &&Object| {
+                    !object.shadowing.casts
+                        || scene.materials[object.material as usize].transmission.is_some()
+                };
+                let others = scene.objects.iter().filter(is_other);
+                let primitives = others.flat_map(|object| {
+                    let curved = first_curved + object.first_curved;
+                    (object.first..object.first + object.count).chain(curved..curved + object.curved_count)
+                });
+                let may_be_asked = |&primitive: &PrimitiveIndex| scene.object(primitive).shadowing.receives;
+                primitives.chain(culled.iter().copied()).filter(may_be_asked).collect()
             }
             Receivers::Anywhere => Vec::new(),
         };

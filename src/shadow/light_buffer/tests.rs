@@ -164,6 +164,23 @@ proptest! {
     }
 
     #[test]
+    fn lists_are_those_of_casting_on_all_sides(
+        triangles in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-4i8..5)), 1..20),
+        resolution in prop::sample::select(vec![1u32, 2, 3, 8, 33]),
+    ) {
+        let scene = scene(&triangles);
+        let index = SceneIndex::new(&scene);
+        let input = BuildInput::new(&scene, &index, Vec3::ZERO);
+        let casters = Casters::new(&scene, &index, input.light);
+        let cells = Cells::new(&casters.space, std::iter::empty());
+        // Every third triangle is there to be asked about.
+        let receiving: Vec<_> = (0..scene.triangles.len() as u32).step_by(3).collect();
+        let coherent = build::build(&input, &casters, &receiving, &cells, resolution).unwrap();
+        let on_all = build::build_on(&input, &casters, &receiving, &cells, resolution, |_| u8::MAX).unwrap();
+        prop_assert_eq!(coherent, on_all);
+    }
+
+    #[test]
     fn every_cell_of_a_sheet_that_a_triangle_meets_lists_it_or_lies_behind_a_cover(
         triangles in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-4i8..5)), 1..5),
         direction in prop::array::uniform3(-3i8..4),

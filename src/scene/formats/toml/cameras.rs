@@ -2,7 +2,7 @@
 
 use super::document::name_of;
 use super::schema::CameraEntry;
-use super::values::Number;
+use super::values::{Exactly, Number};
 use crate::scene::formats::limits::MAX_CAMERA_PIXELS;
 use crate::scene::formats::looking;
 use crate::scene::{Camera, ImageSize};
@@ -11,15 +11,15 @@ use glam::Vec3;
 /// The field of view of a camera that says none.
 const USUAL_DEGREES: f64 = 45.0;
 
+/// How far products of a camera's axes may be from 1 and 0.
+const TOLERANCE: f32 = 1e-3;
+
 /// The camera of a table; `index` counts from 0 and names it if it has no name.
 ///
 /// # Errors
-/// A line for numbers that leave no direction to look in, no field of view or no pixels.
+/// A line for keys that are missing or do not go together, and for numbers that leave no direction to look in,
+/// no field of view or no pixels.
 pub(super) fn read(entry: &CameraEntry, index: usize) -> Result<Camera, String> {
-    let degrees = entry.vertical_degrees.map_or(USUAL_DEGREES, |Number(degrees)| degrees);
-    if !(degrees > 0.0 && degrees < 180.0) {
-        return Err(format!("expected `vertical_degrees` between 0 and 180, found {degrees}"));
-    }
     let size = match entry.size.map(|size| size.0) {
         None => None,
         Some([width, height]) => {
@@ -27,9 +27,48 @@ pub(super) fn read(entry: &CameraEntry, index: usize) -> Result<Camera, String> 
             Some(size.map_err(|why| format!("size {width} x {height}: {why}"))?)
         }
     };
-    let up = entry.up.map_or(Vec3::Y, |up| up.0);
     let name = name_of("camera", index, entry.name.as_deref());
-    let camera = looking::camera(&name, [entry.position.0, entry.target.0, up], degrees)
-        .map_err(|why| why.message("`position` and `target`"))?;
-    Ok(Camera { size, ..camera })
+    let camera = match (entry.target, entry.axes) {
+        (Some(target), None) => {
+            let up = entry.up.map_or(Vec3::Y, |up| up.0);
+            looking::camera(&name, [entry.position.0, target.0, up], USUAL_DEGREES)
+                .map_err(|why| why.message("`position` and `target`"))?
+        }
+        (None, Some(Exactly(axes))) if entry.up.is_none() => {
+            let [right, up, forward] = axes.map(|axis| axis.0);
+            if !are_upright(right, up, forward) {
+                return Err(
+                    "expected `axes` to be unit vectors to the right, up and ahead, at right angles".into()
+                );
+            }
+            Camera { name, origin: entry.position.0, forward, right, up, tan_half_height: 1.0, size: None }
+        }
+        (None, Some(_)) => return Err("`up` is for cameras with a `target`".into()),
+        (None, None) => return Err("expected a `target` or `axes`, found neither".into()),
+        (Some(_), Some(_)) => return Err("expected either `target` or `axes`, found both".into()),
+    };
+    Ok(Camera { size, tan_half_height: tan_half_height(entry)?, ..camera })
+}
+
+fn tan_half_height(entry: &CameraEntry) -> Result<f64, String> {
+    match (entry.vertical_degrees, entry.half_height) {
+        (Some(_), Some(_)) => Err("expected either `vertical_degrees` or `half_height`, found both".into()),
+        (None, Some(Number(tangent))) if tangent > 0.0 => Ok(tangent),
+        (None, Some(Number(tangent))) => Err(format!("expected `half_height` above 0, found {tangent}")),
+        (degrees, None) => {
+            let degrees = degrees.map_or(USUAL_DEGREES, |Number(degrees)| degrees);
+            if !(degrees > 0.0 && degrees < 180.0) {
+                return Err(format!("expected `vertical_degrees` between 0 and 180, found {degrees}"));
+            }
+            Ok(libm::tan(degrees.to_radians() * 0.5))
+        }
+    }
+}
+
+/// Whether these are unit vectors at right angles, and right-handed if one looks against the last.
+fn are_upright(right: Vec3, up: Vec3, forward: Vec3) -> bool {
+    let products = [right.dot(up), up.dot(forward), forward.dot(right)];
+    let lengths = [right, up, forward].map(|axis| axis.length_squared() - 1.0);
+    let near = |error: f32| error.abs() <= TOLERANCE;
+    products.into_iter().chain(lengths).all(near) && right.cross(up).dot(forward) < 0.0
 }

@@ -1,19 +1,17 @@
 //! One file by itself: what it holds as a scene of its own, and what it includes.
 
-use super::schema::{Document, MaterialEntry, TransformEntry};
-use super::values::Number;
-use super::{cameras, lights, meshes, transforms};
-use crate::scene::formats::limits::{MAX_CAMERAS, MAX_LIGHTS, MAX_OBJECTS};
+use super::materials::{self, Pictures};
+use super::parts::{self, Layout};
+use super::schema::{Document, TransformEntry};
+use super::{cameras, lights, transforms};
+use crate::scene::formats::limits::{MAX_CAMERAS, MAX_LIGHTS};
 use crate::scene::formats::text::printable;
-use crate::scene::{Coverage, Material, Scene, SceneBuilder};
+use crate::scene::{Scene, SceneBuilder};
 use glam::DAffine3;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
-
-/// The largest Phong exponent.
-const SHINIEST: f64 = 1000.0;
 
 /// Where something is wrong, as a place in the file's bytes, and what.
 pub(super) type Complaint = (usize, String);
@@ -22,10 +20,13 @@ pub(super) type Complaint = (usize, String);
 pub(super) struct Content {
     /// The scene's name, if the file gives it one.
     pub(super) name: Option<String>,
-    /// Its materials, meshes, lights and cameras, before anything is moved.
+    /// The background, if it says one.
+    pub(super) background: Option<[f32; 3]>,
+    /// Its materials, lights and cameras, and each mesh and curved surface as an object, before anything is
+    /// moved.
     pub(super) scene: Scene,
-    /// Where each object goes.
-    pub(super) transforms: Vec<Option<DAffine3>>,
+    /// What becomes of those.
+    pub(super) layout: Layout,
     pub(super) includes: Vec<Include>,
 }
 
@@ -43,24 +44,15 @@ pub(super) struct Include {
     pub(super) material: Option<u32>,
 }
 
-/// Reads a text.
+/// Reads a text; `pictures` finds what its textures name.
 ///
 /// # Errors
 /// A place and a line for whatever is no TOML or no scene.
-pub(super) fn read(text: &str) -> Result<Content, Complaint> {
+pub(super) fn read(text: &str, pictures: &mut Pictures) -> Result<Content, Complaint> {
     let document = parse(text)?;
     let mut builder = SceneBuilder::new("");
-    let materials = materials(&document.materials, &mut builder)?;
-    limit(&document.meshes, MAX_OBJECTS, "meshes")?;
-    let mut transforms = Vec::new();
-    let mut crossed = 0;
-    for (index, entry) in document.meshes.iter().enumerate() {
-        let read = meshes::read(entry, index, &materials)?;
-        crossed += read.crossed;
-        transforms.push(self::transform(entry.get_ref().transform.as_ref())?);
-        builder.add_object(read.input).map_err(|error| (entry.span().start, error.to_string()))?;
-    }
-    meshes::warn(crossed, &mut builder);
+    let library = materials::read(&document.materials, pictures, &mut builder)?;
+    let layout = parts::read(&document, &library, &mut builder)?;
     limit(&document.lights, MAX_LIGHTS as u64, "lights")?;
     for (index, entry) in document.lights.iter().enumerate() {
         let light = lights::read(entry.get_ref(), index);
@@ -88,12 +80,13 @@ pub(super) fn read(text: &str) -> Result<Content, Complaint> {
             receives: entry.receive_shadows,
             lights: entry.lights.unwrap_or(true),
             cameras: entry.cameras.unwrap_or(true),
-            material: entry.material.as_ref().map(|name| find(&materials, name)).transpose()?,
+            material: entry.material.as_ref().map(|name| library.for_include(name)).transpose()?,
             path: entry.path,
         });
     }
     let name = document.name.as_deref().map(printable);
-    Ok(Content { name, scene: builder.finish(), transforms, includes })
+    let background = document.background.map(|colour| colour.0);
+    Ok(Content { name, background, scene: builder.finish(), layout, includes })
 }
 
 fn parse(text: &str) -> Result<Document, Complaint> {
@@ -130,50 +123,44 @@ fn limit<T>(elements: &[Spanned<T>], most: u64, what: &str) -> Result<(), Compla
     }
 }
 
-fn transform(entry: Option<&Spanned<TransformEntry>>) -> Result<Option<DAffine3>, Complaint> {
+/// The transform of a table, if there is one.
+pub(super) fn transform(entry: Option<&Spanned<TransformEntry>>) -> Result<Option<DAffine3>, Complaint> {
     let Some(entry) = entry else { return Ok(None) };
     transforms::read(entry.get_ref()).map_err(|why| (entry.span().start, why))
 }
 
-/// The scene's numbers of the file's materials.
-pub(super) type Materials = BTreeMap<String, u32>;
-
-/// The material of a name.
-///
-/// # Errors
-/// If there is none.
-pub(super) fn find(materials: &Materials, name: &Spanned<String>) -> Result<u32, Complaint> {
-    let found = materials.get(name.get_ref()).copied();
-    found.ok_or_else(|| (name.span().start, format!("no material `{}`", printable(name.get_ref()))))
+/// The materials of a file.
+#[derive(Default)]
+pub(super) struct Library {
+    /// The scene's numbers by their names.
+    pub(super) materials: BTreeMap<String, u32>,
+    /// Those whose textures lie by texture coordinates.
+    pub(super) by_coordinates: BTreeSet<u32>,
 }
 
-fn materials(entries: &[Spanned<MaterialEntry>], builder: &mut SceneBuilder) -> Result<Materials, Complaint> {
-    let mut materials = Materials::new();
-    for entry in entries {
-        let (at, entry) = (entry.span().start, entry.get_ref());
-        let material = material(entry).map_err(|why| (at, why))?;
-        if materials.insert(entry.name.clone(), builder.add_material(material)).is_some() {
-            return Err((at, format!("a second material `{}`", printable(&entry.name))));
+impl Library {
+    /// The material of a name.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub(super) fn find(&self, name: &Spanned<String>) -> Result<u32, Complaint> {
+        let found = self.materials.get(name.get_ref()).copied();
+        found.ok_or_else(|| (name.span().start, format!("no material `{}`", printable(name.get_ref()))))
+    }
+
+    /// The same for all objects of an included file.
+    ///
+    /// # Errors
+    /// Also if it has a texture that needs coordinates, which not all objects have.
+    fn for_include(&self, name: &Spanned<String>) -> Result<u32, Complaint> {
+        let found = self.find(name)?;
+        match self.by_coordinates.contains(&found) {
+            false => Ok(found),
+            true => {
+                let name_shown = printable(name.get_ref());
+                let why = "its texture lies by coordinates, which included objects may lack";
+                Err((name.span().start, format!("material `{name_shown}`: {why}")))
+            }
         }
     }
-    Ok(materials)
-}
-
-fn material(entry: &MaterialEntry) -> Result<Material, String> {
-    let plain = Material::default();
-    let shininess = entry.shininess.map_or(f64::from(plain.shininess), |Number(number)| number);
-    if !(1.0..=SHINIEST).contains(&shininess) {
-        let name = printable(&entry.name);
-        return Err(format!(
-            "material `{name}`: expected a shininess from 1 to {SHINIEST}, found {shininess}"
-        ));
-    }
-    Ok(Material {
-        name: printable(&entry.name),
-        diffuse: entry.diffuse.map_or(plain.diffuse, |share| share.0),
-        specular: entry.specular.map_or(plain.specular, |share| share.0),
-        shininess: shininess as f32,
-        coverage: Coverage::Solid,
-        ..plain
-    })
 }

@@ -1,16 +1,19 @@
 //! The files of a scene, each read once however often it is included.
 
 use super::document::{self, Complaint, Content, Include};
+use super::parts::Layout;
 use super::totals::{Held, Totals};
 use crate::error::{Error, Place, Result};
-use crate::scene::Scene;
 use crate::scene::formats::confined::{self, Room};
-use crate::scene::formats::limits::{MAX_INCLUDE_DEPTH, MAX_REFERENCED_BYTES, MAX_TOML_BYTES};
+use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_INCLUDE_DEPTH};
+use crate::scene::formats::limits::{MAX_REFERENCED_BYTES, MAX_TOML_BYTES};
+use crate::scene::formats::pictures;
 use crate::scene::formats::text::printable;
 use crate::scene::formats::{self, Format};
-use glam::DAffine3;
+use crate::scene::{Image, Scene};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// All files of a scene.
 pub(super) struct Library {
@@ -25,6 +28,10 @@ pub(super) struct Library {
     text_left: u64,
     /// Bytes that files of other formats may still hold.
     bytes_left: u64,
+    /// By canonical path, the pictures of textures.
+    pictures: HashMap<PathBuf, Arc<Image>>,
+    /// Texels that pictures may still have.
+    texels_left: u64,
 }
 
 /// A file.
@@ -33,8 +40,10 @@ pub(super) struct Source {
     pub(super) path: PathBuf,
     /// What it holds itself.
     pub(super) scene: Scene,
-    /// Where each object goes; empty if none is moved.
-    pub(super) transforms: Vec<Option<DAffine3>>,
+    /// What becomes of the objects of that.
+    pub(super) layout: Layout,
+    /// The background, if it or what it includes says one.
+    pub(super) background: Option<[f32; 3]>,
     pub(super) inclusions: Vec<Inclusion>,
     /// With everything that it includes.
     totals: Totals,
@@ -63,6 +72,8 @@ impl Library {
             held: Held::default(),
             text_left: MAX_TOML_BYTES,
             bytes_left: MAX_REFERENCED_BYTES,
+            pictures: HashMap::new(),
+            texels_left: MAX_ALL_TEXELS,
         };
         let canonical = path.canonicalize().map_err(|error| Error::io(path, "read", error))?;
         let name = library.read_document(path, canonical)?;
@@ -78,11 +89,12 @@ impl Library {
         let complaint = |(at, why): Complaint| at_line(lines.line(at), why);
         let text = str::from_utf8(&bytes)
             .map_err(|error| complaint((error.valid_up_to(), "expected text in UTF-8".into())))?;
-        let Content { name, scene, transforms, includes } = document::read(text).map_err(complaint)?;
-        self.held.add(&scene).map_err(|why| Error::input(path, Place::File, why))?;
-        let mut totals =
-            Totals::default().plus(Totals::of(&scene)).map_err(|why| Error::input(path, Place::File, why))?;
         let room = Room::beside(path)?;
+        let content = document::read(text, &mut |name| self.picture(&room, name)).map_err(complaint)?;
+        let Content { name, mut background, scene, layout, includes } = content;
+        self.held.add(&scene).map_err(|why| Error::input(path, Place::File, why))?;
+        let own = Totals { objects: layout.objects.len() as u64, ..Totals::of(&scene) };
+        let mut totals = Totals::default().plus(own).map_err(|why| Error::input(path, Place::File, why))?;
         self.open.push(canonical);
         let mut inclusions = Vec::with_capacity(includes.len());
         // The operating system need not be asked twice about one name.
@@ -94,6 +106,7 @@ impl Library {
                 None => self.include(path, &room, &entry, &|why| at_line(line, why))?,
             };
             named.insert(entry.path.clone(), source);
+            background = background.or(self.sources[source].background);
             let mut added = self.sources[source].totals;
             if !entry.lights {
                 added.lights = 0;
@@ -105,7 +118,7 @@ impl Library {
             inclusions.push(Inclusion { source, line, entry });
         }
         let canonical = self.open.pop().expect("pushed above");
-        self.keep(canonical, Source { path: path.into(), scene, transforms, inclusions, totals });
+        self.keep(canonical, Source { path: path.into(), scene, layout, background, inclusions, totals });
         Ok(name)
     }
 
@@ -144,11 +157,34 @@ impl Library {
                 let scene = formats::load(&shown)?;
                 self.held.add(&scene).map_err(error)?;
                 let totals = Totals::of(&scene);
-                let (transforms, inclusions) = (Vec::new(), Vec::new());
-                self.keep(located, Source { path: shown, scene, transforms, inclusions, totals });
+                let source = Source {
+                    path: shown,
+                    layout: Layout::of(&scene),
+                    background: Some(scene.background).filter(|colour| *colour != [0.0; 3]),
+                    scene,
+                    inclusions: Vec::new(),
+                    totals,
+                };
+                self.keep(located, source);
             }
         }
         Ok(self.sources.len() - 1)
+    }
+
+    /// Finds or reads a picture.
+    fn picture(&mut self, room: &Room, name: &str) -> std::result::Result<Arc<Image>, String> {
+        let located = room.locate(name).map_err(|denial| denial.message(name))?;
+        if let Some(known) = self.pictures.get(&located) {
+            return Ok(known.clone());
+        }
+        let bytes = room.read(&located).map_err(|denial| denial.message(name))?;
+        let left = self.bytes_left.checked_sub(bytes.len() as u64);
+        self.bytes_left =
+            left.ok_or_else(|| format!("all included files hold more than {MAX_REFERENCED_BYTES} bytes"))?;
+        let picture = pictures::read(&bytes, &mut self.texels_left);
+        let picture = Arc::new(picture.map_err(|why| format!("`{}`: {why}", printable(name)))?);
+        self.pictures.insert(located, picture.clone());
+        Ok(picture)
     }
 
     fn keep(&mut self, canonical: PathBuf, source: Source) {

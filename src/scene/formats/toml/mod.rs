@@ -1,22 +1,26 @@
 //! Our own scene format, in TOML: what no interchange format says, and files of the others by path.
 //!
-//! `docs/SCENE-FORMAT.md` explains it element by element. In short: `[[include]]` places another file,
-//! `[[mesh]]`, `[[material]]`, `[[light]]` and `[[camera]]` say the rest. What a file holds itself comes before
-//! what it includes.
+//! `docs/SCENE-FORMAT.md` explains it element by element. In short: `[[include]]` places another file, `[[mesh]]`
+//! and a table for each kind of curved surface are parts of objects, `[[material]]`, `[[light]]` and `[[camera]]`
+//! say the rest. What a file holds itself comes before what it includes.
 //!
 //! Coordinates are rounded to 32 bits where they are read. Transforms are in f64, those of nested files are
 //! multiplied there, and each coordinate is rounded once after them. Where nothing moves an object its numbers
 //! stay bit by bit.
 //!
-//! [`library`] reads every file once, [`document`] what a file says itself. [`totals`] counts how much all
+//! [`library`] reads every file once, [`document`] what a file says itself, [`parts`] what becomes of its meshes and
+//! surfaces. [`totals`] counts how much all
 //! that would become, so that a scene that is too large is refused before any of it is placed here.
 
 mod cameras;
 mod document;
 mod library;
 mod lights;
+mod materials;
 mod meshes;
+mod parts;
 mod schema;
+mod shapes;
 mod totals;
 mod transforms;
 mod values;
@@ -25,7 +29,7 @@ use self::library::{Library, Source};
 use super::scene_name;
 use super::text::printable;
 use crate::error::{Error, Place, Result};
-use crate::scene::{Adopted, Placement, Scene, SceneBuilder};
+use crate::scene::{Adopted, ObjectInput, Placement, Scene, SceneBuilder};
 use glam::DAffine3;
 use std::path::Path;
 
@@ -39,6 +43,8 @@ pub(super) fn load(path: &Path) -> Result<Scene> {
     let adopted = library.sources.iter().map(|_| None).collect();
     let mut assembly = Assembly { library: &library, builder, adopted };
     assembly.place(library.sources.len() - 1, &Circumstances::usual())?;
+    let background = library.sources.last().and_then(|source| source.background);
+    assembly.builder.set_background(background.unwrap_or_default());
     let folder = path.parent().unwrap_or(Path::new(""));
     for source in &library.sources {
         for warning in &source.scene.warnings {
@@ -88,12 +94,19 @@ impl Assembly<'_> {
             None => self.builder.adopt(&source.scene),
         };
         let outer = &around.placement;
-        for (index, object) in source.scene.objects.iter().enumerate() {
-            let own = source.transforms.get(index).copied().flatten();
-            let placement = Placement { transform: within(outer.transform, own), ..*outer };
-            self.builder
-                .place(&source.scene, object, &mut adopted, &placement)
-                .map_err(|error| Error::input(&source.path, Place::File, error.to_string()))?;
+        let wrong = |error: Error| Error::input(&source.path, Place::File, error.to_string());
+        for object in &source.layout.objects {
+            let mut parts = Vec::with_capacity(object.len());
+            for index in object.clone() {
+                let own = source.layout.transforms[index];
+                let placement = Placement { transform: within(outer.transform, own), ..*outer };
+                let part = &source.scene.objects[index];
+                let placed = self.builder.placed(&source.scene, part, &mut adopted, &placement);
+                parts.push(placed.map_err(wrong)?);
+            }
+            if let Some(whole) = ObjectInput::join(parts) {
+                self.builder.add_object(whole).map_err(wrong)?;
+            }
         }
         self.builder.count_dropped(source.scene.dropped);
         self.look_and_light(source, around)?;

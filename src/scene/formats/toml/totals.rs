@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_CAMERAS, MAX_LIGHTS, MAX_OBJECTS};
-use crate::scene::formats::limits::{MAX_PLACEMENTS, MAX_TRIANGLES, MAX_VERTICES};
+use crate::scene::formats::limits::{MAX_CURVED, MAX_PLACEMENTS, MAX_TRIANGLES, MAX_VERTICES};
 
 /// How much a file places, with everything that it includes.
 #[derive(Debug, Clone, Copy, Default)]
@@ -11,6 +11,7 @@ pub(super) struct Totals {
     pub(super) placements: u64,
     pub(super) objects: u64,
     pub(super) triangles: u64,
+    pub(super) curved: u64,
     pub(super) lights: u64,
     pub(super) cameras: u64,
 }
@@ -22,6 +23,7 @@ impl Totals {
             placements: 1,
             objects: scene.objects.len() as u64,
             triangles: scene.triangles.len() as u64,
+            curved: scene.curved.len() as u64,
             lights: scene.lights.len() as u64,
             cameras: scene.cameras.len() as u64,
         }
@@ -40,6 +42,7 @@ impl Totals {
             placements: sum(MAX_PLACEMENTS, "included files", |totals| totals.placements)?,
             objects: sum(MAX_OBJECTS, "objects", |totals| totals.objects)?,
             triangles: sum(MAX_TRIANGLES, "triangles", |totals| totals.triangles)?,
+            curved: sum(MAX_CURVED, "curved surfaces", |totals| totals.curved)?,
             lights: sum(MAX_LIGHTS as u64, "lights", |totals| totals.lights)?,
             cameras: sum(MAX_CAMERAS, "cameras", |totals| totals.cameras)?,
         })
@@ -50,6 +53,7 @@ impl Totals {
 #[derive(Debug, Default)]
 pub(super) struct Held {
     triangles: u64,
+    curved: u64,
     vertices: u64,
     texels: u64,
 }
@@ -63,6 +67,7 @@ impl Held {
         let texels = scene.alpha_masks.iter().map(|mask| u64::from(mask.width) * u64::from(mask.height));
         for (held, more, most, what) in [
             (&mut self.triangles, scene.triangles.len() as u64, MAX_TRIANGLES, "triangles"),
+            (&mut self.curved, scene.curved.len() as u64, MAX_CURVED, "curved surfaces"),
             (&mut self.vertices, scene.vertices.len() as u64, MAX_VERTICES, "vertices"),
             (&mut self.texels, texels.sum(), MAX_ALL_TEXELS, "texels of masks"),
         ] {

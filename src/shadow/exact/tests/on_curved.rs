@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::geometry::curved::Quadric;
+use crate::scene::{AlphaMask, Coverage, TextureCoordinates, Wrap};
 
 #[test]
 fn the_far_wall_of_an_open_cylinder_is_shadowed_by_the_near_one() {
@@ -122,4 +123,32 @@ fn a_cone_is_met_from_its_own_wall() {
     let inside = on(0, Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Crossing::Leaving);
     assert_eq!(truth(&scene, at(0.0, 0.0, 1.5), inside), LIT);
     assert_eq!(truth(&scene, at(-5.0, 0.0, 7.0f32.next_down()), inside), OCCLUDED);
+}
+
+#[test]
+fn holes_are_met_exactly_from_an_irrational_point() {
+    // At z = 2, there for x from 0 to 1 and from 2 to 3, a hole from 1 to 2 and from 3 on.
+    let mut world = World::new();
+    let mask = world.0.add_alpha_mask(AlphaMask::new(2, 1, [Wrap::Repeat; 2], |column, _| column == 0));
+    let coverage = Coverage::Masked(mask);
+    let material = world.0.add_material(Material { coverage, ..Material::default() });
+    let corners = vec![Vec3::new(0.0, 0.0, 2.0), Vec3::new(4.0, 0.0, 2.0), Vec3::new(0.0, 4.0, 2.0)];
+    let coordinates = vec![[0.0, 0.0], [2.0, 0.0], [0.0, 0.0]];
+    let texture_coordinates = Some(TextureCoordinates { coordinates, corners: vec![[0, 1, 2]] });
+    let input = ObjectInput::new("holes", corners, vec![[0, 1, 2]]);
+    world.0.add_object(ObjectInput { material, texture_coordinates, ..input }).unwrap();
+    let scene = world.with(Matter::Opaque, &[], &[Shape::sphere(Vec3::ZERO, 1.0)]).scene();
+    // From (sqrt(3/4), 1/2, 0) a slope of x against z of (1 - sqrt(3/4)) / 2 leads to x = 1.
+    let point = on(1, Vec3::new(3.0, 0.5, 0.0), Vec3::NEG_X, Crossing::Entering);
+    let exact = (1.0 - 0.75f64.sqrt()) / 2.0;
+    let nearest = exact as f32;
+    let (below, above) = if f64::from(nearest) < exact {
+        (nearest, nearest.next_up())
+    } else {
+        (nearest.next_down(), nearest)
+    };
+    assert_eq!(truth(&scene, towards(below, 0.0, 1.0), point), OCCLUDED);
+    assert_eq!(truth(&scene, towards(above, 0.0, 1.0), point), LIT);
+    assert_eq!(truth(&scene, towards(1.0, 0.0, 1.0), point), OCCLUDED, "x is below 3");
+    assert_eq!(truth(&scene, at(1.0, 0.5, 4.0), point), OCCLUDED, "x is below 1");
 }

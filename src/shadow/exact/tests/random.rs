@@ -187,6 +187,32 @@ fn sampled(shape: &Shape, from: DVec3, to: DVec3) -> Option<usize> {
     Some(count)
 }
 
+/// Where a ray passes through a surface, by samples and halving, if it does so clearly.
+fn hit(shape: &Shape, origin: Vec3, direction: Vec3) -> Option<(DVec3, Crossing)> {
+    let at = |t: f64| origin.as_dvec3() + direction.as_dvec3() * t;
+    let value = |t: f64| evaluate(shape, at(t)).0;
+    let steps: Vec<f64> = (0..=300).map(|i| f64::from(i) * 0.01).collect();
+    let span = steps.windows(2).find(|w| value(w[0]) * value(w[1]) < 0.0)?;
+    let (mut low, mut high) = (span[0], span[1]);
+    let crossing = if value(low) > 0.0 { Crossing::Entering } else { Crossing::Leaving };
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if (value(middle) > 0.0) == (value(low) > 0.0) { low = middle } else { high = middle }
+    }
+    Some((at(low), crossing))
+}
+
+/// How often a segment from a point of a surface crosses that surface again.
+fn sampled_again(shape: &Shape, from: DVec3, to: DVec3) -> Option<usize> {
+    let value = |place: f64| evaluate(shape, from + (to - from) * place).0;
+    let (soon, later) = (value(1e-4), value(0.01));
+    // One other root is all there may be, and it is not before there.
+    if soon.abs() < 1e-6 || soon * later <= 0.0 {
+        return None;
+    }
+    sampled(shape, from + (to - from) * 0.01, to)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
@@ -236,8 +262,28 @@ proptest! {
     }
 
     #[test]
-    fn intervals_decide_ordinary_queries(seed in 1u64..) {
-        // Exact answers of both kinds of surface points: the interval around the point holds it.
+    fn points_on_surfaces_are_where_f64_has_them(seed in 1u64..) {
+        let mut numbers = Numbers { state: seed, whole: false };
+        let shapes = [numbers.shape(), numbers.shape()];
+        let scene = World::new().with(Matter::Glass, &[], &shapes).scene();
+        for _ in 0..8 {
+            let (origin, direction, light) = (numbers.vector(), numbers.vector(), numbers.vector());
+            let Some((place, crossing)) = hit(&shapes[0], origin, direction) else { continue };
+            let to = light.as_dvec3();
+            let again = match shapes[0] {
+                Shape::Disc(_) | Shape::Plane(_) => Some(0),
+                _ => sampled_again(&shapes[0], place, to),
+            };
+            let (Some(own), Some(other)) = (again, sampled(&shapes[1], place, to)) else { continue };
+            let expected: Vec<_> = [vec![0; own], vec![1; other]].concat();
+            let point = on(0, origin, direction, crossing);
+            let found = crossed(&scene, LightPosition::At(light), point);
+            prop_assert_eq!(found, expected, "{:?} {:?} {:?} {:?}", shapes, origin, direction, light);
+        }
+    }
+
+    #[test]
+    fn what_intervals_decide_is_right(seed in 1u64..) {
         let mut numbers = Numbers { state: seed, whole: false };
         let scene = curved(&[numbers.shape(), numbers.shape()]);
         let light = numbers.light();

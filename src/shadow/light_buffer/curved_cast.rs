@@ -1,0 +1,86 @@
+//! Curved surfaces in the cells (row 18 of the notes on the 1986 paper): the hull of each is cast to find the
+//! cells that may see it, and a polygon inside of it to find those that it covers.
+
+use super::build::{Part, StandsFor};
+use super::cell::{Candidate, Cover, Role};
+use crate::geometry::curved::{Shape, hull, inner};
+use crate::geometry::footprint::{Footprint, Grid};
+use crate::geometry::{LightPosition, Sign};
+use glam::DVec3;
+
+/// The triangles that are cast for a curved surface; none for a plane without end.
+pub(super) fn parts(shape: &Shape, light: LightPosition, role: Role) -> Vec<Part> {
+    let Some(hull) = hull::outer(shape) else { return Vec::new() };
+    let stands_for = if is_around(&hull, light) { StandsFor::HullAroundLight } else { StandsFor::Hull };
+    let part = |corners| Part { corners, role, most: Cover::Part, stands_for };
+    hull.into_iter().map(part).collect()
+}
+
+/// The triangles of the polygon inside of an opaque caster, if there is one.
+pub(super) fn inner_parts(shape: &Shape, light: LightPosition, caster: u32) -> Vec<Part> {
+    let Some(polygon) = inner::polygon(shape, light) else { return Vec::new() };
+    let stands_for = StandsFor::Inner { margin: inner::margin(shape) };
+    let (role, most) = (Role::Covers(caster), Cover::Whole);
+    let part = |pair: &[DVec3]| Part { corners: [polygon[0], pair[0], pair[1]], role, most, stands_for };
+    polygon[1..].windows(2).map(part).collect()
+}
+
+/// Whether a light may be inside of a hull, or so near to it that floats cannot tell.
+fn is_around(hull: &hull::Hull, light: LightPosition) -> bool {
+    let LightPosition::At(light) = light else { return false };
+    let corners = || hull.iter().flatten();
+    let middle = corners().copied().sum::<DVec3>() / (3 * hull.len()) as f64;
+    let size = corners().map(|corner| (*corner - middle).abs().max_element()).fold(0.0, f64::max);
+    let side = |[a, b, c]: &[DVec3; 3], p: DVec3| {
+        let (u, v, w) = (*b - *a, *c - *a, p - *a);
+        let bound = 1e-9 * u.length() * v.length() * (w.length() + size);
+        Sign::certain(u.cross(v).dot(w), bound)
+    };
+    let is_outside = |triangle: &[DVec3; 3]| {
+        let (light, middle) = (side(triangle, light.as_dvec3()), side(triangle, middle));
+        light.is_some_and(|light| middle == Some(-light))
+    };
+    !hull.iter().any(is_outside)
+}
+
+/// The least depth behind which a polygon inside of a curved surface darkens the whole cell, or infinity: a
+/// polygon is convex, and so is its projection, which holds the cell if it holds its corners.
+pub(super) fn cover_depth<'a>(
+    candidates: &[Candidate],
+    footprint: impl Fn(usize) -> &'a Footprint,
+    grid: &Grid,
+    column: u32,
+    row: u32,
+) -> f32 {
+    let mut members: Vec<(u32, usize)> = candidates
+        .iter()
+        .enumerate()
+        .filter_map(|(k, candidate)| match candidate.role {
+            Role::Covers(caster) => Some((caster, k)),
+            Role::Blocks(_) | Role::ReceivesOnly => None,
+        })
+        .collect();
+    members.sort_unstable();
+    members
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|polygon| {
+            let inside = |x: f64, y: f64| polygon.iter().any(|&(_, k)| footprint(k).contains(x, y));
+            grid.corners(column, row).iter().all(|&[x, y]| inside(x, y))
+        })
+        .map(|polygon| polygon.iter().map(|&(_, k)| candidates[k].far).fold(f32::NEG_INFINITY, f32::max))
+        .fold(f32::INFINITY, f32::min)
+}
+
+/// Makes one candidate of all triangles of a hull, and leaves out the polygons that have done their part.
+pub(super) fn join(candidates: &mut Vec<Candidate>) {
+    candidates.retain(|candidate| !matches!(candidate.role, Role::Covers(_)));
+    candidates.sort_unstable_by_key(|candidate| candidate.role);
+    candidates.dedup_by(|next, kept| {
+        let same = next.role == kept.role && next.role != Role::ReceivesOnly;
+        if same {
+            kept.near = kept.near.min(next.near);
+            kept.far = kept.far.max(next.far);
+        }
+        same
+    });
+}
