@@ -101,9 +101,10 @@ impl Builtin {
                 let factor = factor.unwrap_or(range.standard);
                 match (range.smallest..=range.largest).contains(&factor) {
                     true => make(factor),
-                    false => {
-                        wrong(format!("expected a size factor from {} to {}, found {factor}", range.largest))
-                    }
+                    false => wrong(format!(
+                        "expected a size factor from {} to {}, found {factor}",
+                        range.smallest, range.largest
+                    )),
                 }
             }
             (Make::Sized(_), None, _) => wrong("the scene has no range of sizes".into()),
