@@ -101,7 +101,9 @@ fn facts(view: &View) -> Facts {
     let scene = &view.scene;
     let index = SceneIndex::new(scene);
     let surfaces = |wanted: Surface| {
-        index.convexity.iter().flatten().filter(|convexity| convexity.surface == wanted).count()
+        let objects = scene.objects.iter().zip(&index.convexity);
+        let convex = objects.filter(|(object, _)| object.count > 0).filter_map(|(_, c)| c.as_ref());
+        convex.filter(|convexity| convexity.surface == wanted).count()
     };
     let solids = index.solids(scene);
     let refused = |why: Refusal| solids.refused.get(&why).copied().unwrap_or(0);
