@@ -20,6 +20,10 @@ pub struct ViewOptions {
     /// Image size in pixels [default: the camera's own if the scene says one, else 1280x720]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<ImageSize>,
+    /// Rays through the corners of pixels in place of their centres: an image of one more row and column, as
+    /// the Standard Procedural Databases are counted
+    #[arg(long)]
+    pub corner_rays: bool,
     /// Camera by name [default: the scene's first]
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,

@@ -17,6 +17,7 @@ mod open_exr;
 pub mod palette;
 mod planes;
 mod png;
+mod subdivision;
 mod tone;
 
 pub use atomic::write_atomically;
@@ -28,4 +29,5 @@ pub use names::{safe_light_name, unique_safe_names};
 pub use open_exr::write_exr;
 pub use planes::{ImagePlanes, Plane};
 pub use png::write_png_rgb;
+pub use subdivision::subdivided;
 pub use tone::{ToneMap, linear_to_srgb8};

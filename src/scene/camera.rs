@@ -90,6 +90,13 @@ impl Camera {
         origin.is_finite().then_some(camera)
     }
 
+    /// The camera and the image whose pixel centres are the pixel corners of an image of this size.
+    pub fn through_corners(self, size: ImageSize) -> (Camera, ImageSize) {
+        let corners = ImageSize { width: size.width + 1, height: size.height + 1 };
+        let tan_half_height = self.tan_half_height * f64::from(corners.height) / f64::from(size.height);
+        (Camera { tan_half_height, ..self }, corners)
+    }
+
     /// Offsets of the image plane at distance 1, in units of `right` and `up`: the centre of pixel
     /// (0, 0) and the step to the next column and row (the latter negative).
     pub fn raster(&self, size: ImageSize) -> Raster {
@@ -118,4 +125,20 @@ pub struct Raster {
     pub(crate) y0: f64,
     pub(crate) step_x: f64,
     pub(crate) step_y: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corner_rays_go_from_corner_to_corner() {
+        let camera = Camera::look_at("c", Vec3::ZERO, Vec3::NEG_Z, Vec3::Y, 90.0);
+        let (wider, size) = camera.clone().through_corners(ImageSize { width: 8, height: 4 });
+        assert_eq!((size.width, size.height), (9, 5));
+        let raster = wider.raster(size);
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        assert!(close(raster.x0, -2.0) && close(raster.y0, 1.0));
+        assert!(close(raster.step_x, 0.5) && close(raster.step_y, -0.5));
+    }
 }
