@@ -74,6 +74,7 @@
 
 #![warn(missing_docs)]
 
+mod atomic;
 pub mod cli;
 #[cfg(feature = "embree")]
 pub mod embree;
