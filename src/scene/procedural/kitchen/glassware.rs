@@ -22,7 +22,7 @@ pub(super) fn add(set: &mut Set) -> Result<()> {
     }
     for (number, [x, z]) in [[1.74, 0.5], [1.83, 0.46], [1.2, 0.2]].into_iter().enumerate() {
         let tumbler = column([x, ON_TOP, z], 0.034, 0.11);
-        studio.add(format!("tumbler {}", number + 1), palette.crystal, tumbler)?;
+        studio.add(format!("tumbler {}", number + 1), palette.glass, tumbler)?;
     }
     for (number, [x, z]) in [[1.93, 0.16], [1.81, 0.12]].into_iter().enumerate() {
         let material = [palette.green_glass, palette.glass][number];

@@ -31,9 +31,9 @@ pub(super) struct Palette {
     pub paper: u32,
 }
 
-/// Walls of glass so thin that they do not bend light.
+/// Walls of glass so thin that they bend light only a little.
 fn clear(name: &str, transmittance: [f32; 3], mirror: f32) -> Material {
-    Material { mirror: [mirror; 3], ..glass(name, transmittance, 1.0) }
+    Material { mirror: [mirror; 3], ..glass(name, transmittance, 1.08) }
 }
 
 impl Palette {
