@@ -4,9 +4,7 @@ use crate::cases::{Case, lamp, sun};
 use crate::runner::{Asked, Setting, ask_all};
 use glam::Vec3;
 use lightbuffer::geometry::curved::{Cone, Disc, Ellipsoid, InfinitePlane, Quadric, Shape};
-use lightbuffer::scene::{
-    Camera, ImageSize, Material, ObjectInput, SceneBuilder, Shadowing, Transmission,
-};
+use lightbuffer::scene::{Camera, ImageSize, Material, ObjectInput, SceneBuilder, Shadowing, Transmission};
 use lightbuffer::shadow::{Basis, Resolution, VolumeThreshold, testers};
 use proptest::prelude::*;
 

@@ -57,8 +57,7 @@ impl<'a> Asked<'a> {
         let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
         let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
         let forest = RayForest::grow(&case.scene, visible, case.size.pixels() as u64, depth);
-        let queries =
-            |light: &Light| (light.position(), Queries::new(&case.scene, &forest.nodes, light));
+        let queries = |light: &Light| (light.position(), Queries::new(&case.scene, &forest.nodes, light));
         Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
     }
 
