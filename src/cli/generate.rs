@@ -57,7 +57,11 @@ fn list() -> Result<String> {
             builtin.summary
         );
         if let Some(size) = builtin.size_factor {
-            let _ = writeln!(out, "{:<18}size factor 1 to {}, standard {}", "", size.largest, size.standard);
+            let _ = writeln!(
+                out,
+                "{:<18}size factor {} to {}, standard {}",
+                "", size.smallest, size.largest, size.standard
+            );
         }
     }
     Ok(out)

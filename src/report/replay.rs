@@ -1,7 +1,7 @@
 //! `replay --json`: one query through every tester. Its keys are a contract; new ones may be added.
 
 use crate::geometry::LightPosition;
-use crate::scene::{Light, Scene};
+use crate::scene::{Light, Primitive, Scene};
 use crate::shadow::TracedRay;
 use crate::verdict::Cause;
 use crate::visibility::{PointSource, SurfacePoint};
@@ -86,7 +86,7 @@ pub struct RayFacts {
     pub direction: [f32; 3],
 }
 
-/// A triangle in the papers' numbers.
+/// A primitive in the papers' numbers.
 #[derive(Debug, Clone, Serialize)]
 pub struct PrimitiveFacts {
     /// Object m, from 1.
@@ -95,14 +95,21 @@ pub struct PrimitiveFacts {
     pub name: String,
     /// Surface n of the object, from 1.
     pub surface: u32,
-    /// The corners in world space.
-    pub vertices: [[f32; 3]; 3],
+    /// `triangle`, or the kind of a curved surface.
+    pub kind: &'static str,
+    /// The corners of a triangle in world space.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub vertices: Vec<[f32; 3]>,
+    /// What defines a curved surface, in the order of its fields
+    /// ([`Shape`](crate::geometry::curved::Shape)).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub numbers: Vec<f32>,
 }
 
-/// A triangle that the segment meets.
+/// A primitive that the segment meets.
 #[derive(Debug, Clone, Serialize)]
 pub struct MeetingFacts {
-    /// The triangle.
+    /// The primitive.
     #[serde(flatten)]
     pub primitive: PrimitiveFacts,
     /// `interior`, `boundary` (an edge or vertex), or `end` (the point itself lies on it).
@@ -135,11 +142,18 @@ impl LightFacts {
 }
 
 impl PrimitiveFacts {
-    /// A triangle of a scene.
+    /// A primitive of a scene.
     pub fn new(scene: &Scene, primitive: u32) -> PrimitiveFacts {
         let (object, surface) = scene.object_and_surface(primitive);
-        let vertices = scene.corners(primitive).map(|corner| corner.to_array());
-        PrimitiveFacts { object, name: scene.object(primitive).name.clone(), surface, vertices }
+        let name = scene.object(primitive).name.clone();
+        let (kind, vertices, numbers) = match scene.primitive(primitive) {
+            Primitive::Triangle(corners) => {
+                ("triangle", corners.iter().map(|corner| corner.to_array()).collect(), Vec::new())
+            }
+            // The first number tells the kind.
+            Primitive::Curved(shape) => (shape.kind(), Vec::new(), shape.numbers()[1..].to_vec()),
+        };
+        PrimitiveFacts { object, name, surface, kind, vertices, numbers }
     }
 }
 
@@ -191,8 +205,11 @@ impl Replay {
                 "  sees object {} `{}`, surface {}",
                 primitive.object, primitive.name, primitive.surface
             );
-            for corner in primitive.vertices {
-                let _ = writeln!(out, "    vertex   {}", vector(corner));
+            for corner in &primitive.vertices {
+                let _ = writeln!(out, "    vertex   {}", vector(*corner));
+            }
+            if !primitive.numbers.is_empty() {
+                let _ = writeln!(out, "    {}   {}", primitive.kind, numbers(&primitive.numbers));
             }
         }
         if let Some(point) = self.point {
@@ -270,6 +287,10 @@ fn ray(out: &mut String, ray: &RayFacts) {
 
 fn vector(v: [f32; 3]) -> String {
     v.map(number).join("  ")
+}
+
+fn numbers(values: &[f32]) -> String {
+    values.iter().copied().map(number).collect::<Vec<_>>().join("  ")
 }
 
 /// The shortest decimals that read back as the same float, and its bits.

@@ -44,12 +44,12 @@ fn verdicts_are_in_the_picture_unless_left_out() {
 #[test]
 fn exact_testers_draw_the_picture_of_the_truth() {
     let folder = Folder::new();
-    for tester in ["exact", "brute-force", "light-buffer"] {
+    for tester in ["exact", "brute-force", "bounding-volumes", "light-buffer"] {
         render(&folder, &format!("{tester}.exr"), &["--no-verdict", "--shadow", tester]).done();
     }
     validate(BLOCKS, &folder.path("out"), &[]).done();
     let truth = read_exr(&folder.path("out/image.exr")).unwrap();
-    for tester in ["exact", "brute-force", "light-buffer"] {
+    for tester in ["exact", "brute-force", "bounding-volumes", "light-buffer"] {
         let image = read_exr(&folder.path(&format!("{tester}.exr"))).unwrap();
         assert_eq!(shadows(&image), [format!("shadow.key.{tester}")]);
         assert_eq!(image.attribute("shadow"), Some(tester));

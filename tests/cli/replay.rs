@@ -39,7 +39,7 @@ fn a_pixel_where_embree_errs_says_what_everyone_answered_and_why() {
     assert_eq!(replayed["cause"], "epsilon");
     assert_eq!(replayed["causes"]["embree"], "epsilon");
     let answers = replayed["testers"].as_object().unwrap();
-    for name in ["exact", "brute-force", "light-buffer"] {
+    for name in ["exact", "brute-force", "bounding-volumes", "light-buffer"] {
         assert_eq!(answers[name], true, "{name}");
     }
     assert_eq!(answers["embree"], false);

@@ -45,6 +45,9 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
     for cull in ["on", "", "Solids"] {
         run(&[&format!("--cull={cull}")]).misused("expected off or solids");
     }
+    for threshold in ["-1", "", "six"] {
+        run(&[&format!("--volume-threshold={threshold}")]).misused("'--volume-threshold <N>'");
+    }
     for light in ["1,2", "1,2,3,4", "1,2,nan", "a,b,c", ""] {
         run(&["--light", light]).misused("expected three finite numbers X,Y,Z");
     }

@@ -103,7 +103,7 @@ fn its_numbers_agree_with_each_other() {
             assert!(tester["build_seconds"].as_f64().unwrap() >= 0.0, "{name}");
             assert!(tester["ns_per_query"].as_f64().unwrap() > 0.0, "{name}");
             assert!(number(tester, "bytes") > 0, "{name}");
-            if ["exact", "brute-force", "light-buffer"].contains(&name.as_str()) {
+            if ["exact", "brute-force", "bounding-volumes", "light-buffer"].contains(&name.as_str()) {
                 assert_eq!(wrong, 0, "{name}");
             }
         }
@@ -192,20 +192,35 @@ fn statistics_say_what_was_built() {
     }
 }
 
+/// What is printed about a run with some options, and the bytes of its picture.
+fn image(folder: &Folder, name: &str, options: &[&str]) -> (String, Vec<u8>) {
+    let out = folder.path(name);
+    let usual = ["--stats", "--resolution", "17", "--testers", "light-buffer"];
+    let run = validate(BLOCKS, &out, &[&usual, options].concat());
+    (run.done().stderr, std::fs::read(out.join("image.exr")).unwrap())
+}
+
 #[test]
 fn culling_leaves_out_casters_and_changes_no_mask() {
     let folder = Folder::new();
-    let image = |options: &[&str]| {
-        let out = folder.path(options.last().unwrap());
-        let run = validate(
-            BLOCKS,
-            &out,
-            &[&["--stats", "--resolution", "17", "--testers", "light-buffer"], options].concat(),
-        );
-        (run.done().stderr, std::fs::read(out.join("image.exr")).unwrap())
-    };
-    let ((off, all), (solids, culled)) = (image(&["--cull", "off"]), image(&["--cull", "solids"]));
+    let image = |cull: &str| image(&folder, cull, &["--cull", cull]);
+    let ((off, all), (solids, culled)) = (image("off"), image("solids"));
     assert!(off.contains("  casters culled: 0\n"), "{off}");
     assert!(solids.contains("  casters culled: ") && !solids.contains("  casters culled: 0\n"), "{solids}");
     assert!(all == culled, "the pictures differ");
+}
+
+#[test]
+fn bounding_volumes_and_object_coherence_change_no_mask() {
+    let folder = Folder::new();
+    let (plain, expected) = image(&folder, "plain", &[]);
+    assert!(plain.contains("  bounding-volume records: 0\n"), "{plain}");
+    assert!(!plain.contains(" by the last occluder"), "{plain}");
+    let (grouped, picture) = image(&folder, "grouped", &["--volume-threshold", "6"]);
+    assert!(!grouped.contains("  bounding-volume records: 0\n"), "{grouped}");
+    assert!(grouped.contains(" bounding volumes\n"), "{grouped}");
+    assert!(picture == expected, "bounding volumes change the picture");
+    let (coherent, picture) = image(&folder, "coherent", &["--object-coherence"]);
+    assert!(coherent.contains(" by the last occluder\n"), "{coherent}");
+    assert!(picture == expected, "object coherence changes the picture");
 }

@@ -56,6 +56,9 @@ pub(crate) fn meets<'p>(
     exact: impl FnOnce() -> &'p HomogeneousPoint,
     origin: Vec3,
 ) -> (Meetings, Stage) {
+    if passes_by(shape, light, rounded) {
+        return (Meetings::default(), Stage::Double);
+    }
     let (line, reach) = rounded_line(light, rounded);
     let mut on_line = OnLine::new(shape, &line);
     if base == Base::Own {
@@ -67,6 +70,23 @@ pub(crate) fn meets<'p>(
     let (line, reach) = exact_line(light, exact(), origin);
     let found = meetings(&OnLine::new(shape, &line), reach).expect("exact signs are known");
     (found, Stage::Exact)
+}
+
+/// Whether the line of a segment certainly passes by a ball around the surface, which most do.
+fn passes_by(shape: &Shape, light: LightPosition, rounded: DVec3) -> bool {
+    let Some((centre, radius)) = shape.ball() else { return false };
+    let along = match light {
+        LightPosition::At(light) => light.as_dvec3() - rounded,
+        LightPosition::Towards(direction) => direction.as_dvec3(),
+    };
+    let from = centre - rounded;
+    // Far above what rounding does to the point, the differences and the products, relative to their terms.
+    let doubt = 1e-12 * (rounded.abs().max_element() + centre.abs().max_element() + from.length());
+    let reach = radius * (1.0 + 1e-9) + doubt;
+    // The direction to a light nearby carries the rounding of both ends.
+    let turned = 1e-14 * (rounded.abs().max_element() + along.abs().max_element()) * from.length();
+    let across = from.cross(along).length();
+    across.is_finite() && across > reach * along.length() + turned
 }
 
 /// The side of a surface's tangent plane at a point of it that a light is on: the sign of the polynomial's

@@ -177,6 +177,28 @@ impl Shape {
         })
     }
 
+    /// A ball that holds it, within a few roundings of f64; `None` for a plane without end.
+    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
+        Some(match self {
+            Shape::Sphere(s) => (s.centre.as_dvec3(), f64::from(s.radius)),
+            Shape::Ellipsoid(e) => {
+                let squares: f64 = e.axes.iter().map(|axis| axis.as_dvec3().length_squared()).sum();
+                (e.centre.as_dvec3(), squares.sqrt())
+            }
+            Shape::Cone(c) => {
+                let (base, apex) = (c.base.as_dvec3(), c.apex.as_dvec3());
+                let widest = f64::from(c.base_radius.max(c.apex_radius));
+                ((base + apex) * 0.5, (apex - base).length() * 0.5 + widest)
+            }
+            Shape::Disc(d) => (d.centre.as_dvec3(), f64::from(d.radius)),
+            Shape::Plane(_) => return None,
+            Shape::Quadric(q) => {
+                let (low, high) = (q.low.as_dvec3(), q.high.as_dvec3());
+                ((low + high) * 0.5, (high - low).length() * 0.5)
+            }
+        })
+    }
+
     /// The surface where a transform takes it, each number computed in f64 and rounded once.
     ///
     /// # Errors

@@ -42,6 +42,7 @@ pub(super) fn build() -> Result<Scene> {
         let flame = candle_flame(number).as_vec3().to_array();
         studio.lamp(&format!("candle {}", number + 1), flame, [0.15, 0.105, 0.055]);
     }
+    studio.background([0.004, 0.006, 0.012]);
     studio.lamp("moon", [-60.0, 75.0, 40.0], [0.085, 0.11, 0.17]);
     studio.camera([5.6, 2.35, 10.9], [-0.15, 2.25, 0.0], 38.0, PAPER_SIZE);
     Ok(studio.finish())

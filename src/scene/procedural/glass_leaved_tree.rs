@@ -78,6 +78,7 @@ pub(super) fn build() -> Result<Scene> {
         generation: 1,
     })?;
     let mut studio = grove.studio;
+    studio.background([0.16, 0.25, 0.38]);
     studio.lamp("sun", [-14.0, 22.0, 12.0], [0.95, 0.9, 0.8]);
     studio.lamp("sky", [13.0, 17.0, 9.0], [0.24, 0.28, 0.36]);
     studio.lamp("low sun", [4.0, 9.0, -18.0], [0.32, 0.27, 0.2]);

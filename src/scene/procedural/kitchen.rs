@@ -55,6 +55,7 @@ fn furnished(name: &str) -> Result<Studio> {
     crockery::add(&mut set)?;
     food::add(&mut set)?;
     let mut studio = set.studio;
+    studio.background([0.1, 0.14, 0.2]);
     studio.lamp("window", [-3.2, 5.6, -6.0], [0.55, 0.53, 0.48]);
     studio.lamp("room", [3.2, 2.35, 3.4], [0.34, 0.32, 0.29]);
     studio.lamp("corner", [0.3, 2.3, 2.8], [0.2, 0.2, 0.21]);

@@ -19,6 +19,8 @@ pub struct Builtin {
 /// How large a scene can be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SizeFactor {
+    /// The smallest that leaves nothing out.
+    pub smallest: u32,
     /// The size of the published statistics.
     pub standard: u32,
     /// The largest whose primitives are within what a scene may hold.
@@ -46,13 +48,13 @@ pub const BUILTIN: &[Builtin] = &[
     ),
     fixed("counter-top", "glass, fruit and pots on a polished counter (figure 10)", kitchen::counter_top),
     fixed("kitchen", "the same from further away (figure 11)", kitchen::kitchen),
-    sized("balls", "a fractal of mirroring spheres", 4, 6, spd::balls),
-    sized("gears", "a block of gears, some of glass", 4, 48, spd::gears),
-    sized("mount", "a fractal mountain and four spheres of glass", 6, 12, spd::mount),
-    sized("rings", "a pyramid of linked rings", 7, 80, spd::rings),
-    sized("teapot", "Newell's teapot on a chequered ground", 12, 1000, spd::teapot),
-    sized("tetra", "Sierpinski's tetrahedron", 6, 11, spd::tetra),
-    sized("tree", "a tree of cones and spheres under seven lights", 11, 18, spd::tree),
+    sized("balls", "a fractal of mirroring spheres", [1, 4, 6], spd::balls),
+    sized("gears", "a block of gears, some of glass", [1, 4, 48], spd::gears),
+    sized("mount", "a fractal mountain and four spheres of glass", [1, 6, 12], spd::mount),
+    sized("rings", "a pyramid of linked rings", [1, 7, 80], spd::rings),
+    sized("teapot", "Newell's teapot on a chequered ground", [2, 12, 1000], spd::teapot),
+    sized("tetra", "Sierpinski's tetrahedron", [1, 6, 11], spd::tetra),
+    sized("tree", "a tree of cones and spheres under seven lights", [1, 11, 18], spd::tree),
 ];
 
 const fn fixed(name: &'static str, summary: &'static str, make: fn() -> Result<Scene>) -> Builtin {
@@ -62,11 +64,15 @@ const fn fixed(name: &'static str, summary: &'static str, make: fn() -> Result<S
 const fn sized(
     name: &'static str,
     summary: &'static str,
-    standard: u32,
-    largest: u32,
+    [smallest, standard, largest]: [u32; 3],
     make: fn(u32) -> Result<Scene>,
 ) -> Builtin {
-    Builtin { name, summary, size_factor: Some(SizeFactor { standard, largest }), make: Make::Sized(make) }
+    Builtin {
+        name,
+        summary,
+        size_factor: Some(SizeFactor { smallest, standard, largest }),
+        make: Make::Sized(make),
+    }
 }
 
 /// The scene of this name.
@@ -93,11 +99,12 @@ impl Builtin {
             (Make::Fixed(make), _, None) => make(),
             (Make::Sized(make), Some(range), factor) => {
                 let factor = factor.unwrap_or(range.standard);
-                match (1..=range.largest).contains(&factor) {
+                match (range.smallest..=range.largest).contains(&factor) {
                     true => make(factor),
-                    false => {
-                        wrong(format!("expected a size factor from 1 to {}, found {factor}", range.largest))
-                    }
+                    false => wrong(format!(
+                        "expected a size factor from {} to {}, found {factor}",
+                        range.smallest, range.largest
+                    )),
                 }
             }
             (Make::Sized(_), None, _) => wrong("the scene has no range of sizes".into()),

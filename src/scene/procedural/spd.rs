@@ -46,6 +46,7 @@ fn studio(name: &str, view: &Viewpoint, lights: &[[f32; 3]]) -> Studio {
     let rows = f64::from(SIZE.height);
     let tan_half_height = camera.tan_half_height * rows / (rows - 1.0);
     studio.add_camera(Camera { tan_half_height, size: Some(SIZE), ..camera });
+    studio.background([0.078, 0.361, 0.753]);
     let share = (lights.len() as f64).sqrt() / (2.0 * lights.len() as f64);
     for (number, &place) in lights.iter().enumerate() {
         studio.lamp(&format!("light-{}", number + 1), place, [share as f32; 3]);

@@ -37,7 +37,7 @@ impl Studio {
         self.builder.add_object(ObjectInput { material, curved, ..input })
     }
 
-    /// Adds an object that is ready but for nothing.
+    /// Adds an object that is not made of a mesh of ours.
     ///
     /// # Errors
     /// As [`SceneBuilder::add_object`].
@@ -67,6 +67,11 @@ impl Studio {
     pub fn camera(&mut self, from: [f32; 3], at: [f32; 3], degrees: f64, size: ImageSize) {
         let camera = Camera::look_at("view", from.into(), at.into(), Vec3::Y, degrees);
         self.builder.add_camera(Camera { size: Some(size), ..camera });
+    }
+
+    /// What rays that leave the scene see.
+    pub fn background(&mut self, colour: [f32; 3]) {
+        self.builder.set_background(colour);
     }
 
     /// A camera that is ready.

@@ -2,6 +2,7 @@
 
 use super::{BUILTIN, find};
 use crate::error::Error;
+use crate::scene::formats::{self, limits};
 use crate::scene::{ImageSize, Scene};
 
 /// A row of the paper's table.
@@ -86,4 +87,74 @@ fn names_and_size_factors_that_do_not_exist_are_one_line() {
     assert!(line(find("chess").unwrap_err()).contains("no built-in scene `chess`; there are chessboard, "));
     let error = line(find("gazebo").unwrap().build(Some(3)).unwrap_err());
     assert_eq!(error, "builtin:gazebo: the scene has one size; expected no size factor");
+}
+
+#[test]
+fn loading_by_name_is_building() {
+    let loaded = formats::load("builtin:highchair".as_ref()).unwrap();
+    assert_eq!(loaded.hash(), built("highchair").hash());
+    let error = formats::load("builtin:nothing".as_ref()).unwrap_err();
+    assert!(error.to_string().starts_with("no built-in scene `nothing`"));
+}
+
+/// Triangles, curved surfaces, objects and polygons of a database by its size factor.
+fn expected(name: &str, size: u32) -> [u64; 4] {
+    let n = u64::from(size);
+    match name {
+        "balls" => {
+            let balls = (9u64.pow(size + 1) - 1) / 8;
+            [2, balls, balls + 1, 1]
+        }
+        "gears" => [n.pow(3) * (2 * 142 + 2 * 144) + 2, 0, n.pow(3) + 1, n.pow(3) * 146 + 1],
+        "mount" => [2 * 4u64.pow(size), 4, 5, 2 * 4u64.pow(size)],
+        "rings" => {
+            let rings = n * (n + 1) * (2 * n + 1);
+            [2, 10 * rings, rings + 1, 1]
+        }
+        "teapot" => {
+            // Lid and bottom come to a point in four patches each.
+            let pot = 64 * n * n - 8 * n;
+            [pot + 2 * n * n, 0, 8, pot + n * n]
+        }
+        "tetra" => [4u64.pow(size), 0, 4u64.pow(size - 1), 4u64.pow(size)],
+        "tree" => {
+            let branches = 2u64.pow(size + 1) - 1;
+            [2, 2 * branches, branches + 1, 1]
+        }
+        _ => panic!("{name}"),
+    }
+}
+
+#[test]
+fn the_databases_have_the_published_counts_and_grow_as_described() {
+    let published = [7382, 9345, 8196, 8401, 9264, 4096, 8191];
+    let databases = BUILTIN.iter().filter_map(|builtin| Some((builtin, builtin.size_factor?)));
+    for ((builtin, size), published) in databases.zip(published) {
+        for factor in [size.smallest, 2, 3, size.standard] {
+            let scene = builtin.build(Some(factor)).unwrap();
+            let polygons: u64 = scene.objects.iter().map(|object| u64::from(object.polygons)).sum();
+            let counts = [scene.triangles.len(), scene.curved.len(), scene.objects.len()].map(|n| n as u64);
+            let [triangles, curved, objects] = counts;
+            let found = [triangles, curved, objects, polygons];
+            assert_eq!(found, expected(builtin.name, factor), "{} {factor}", builtin.name);
+            if factor == size.standard {
+                assert_eq!(polygons + curved, published, "{}", builtin.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_largest_databases_are_within_the_limits_and_no_larger_ones_are_made() {
+    for builtin in BUILTIN {
+        let Some(size) = builtin.size_factor else { continue };
+        let [triangles, curved, objects, _] = expected(builtin.name, size.largest);
+        assert!(triangles <= limits::MAX_TRIANGLES, "{}", builtin.name);
+        assert!(curved <= limits::MAX_CURVED && objects <= limits::MAX_OBJECTS, "{}", builtin.name);
+        for factor in [size.smallest - 1, size.largest + 1, u32::MAX] {
+            let error = builtin.build(Some(factor)).unwrap_err().to_string();
+            let line = format!("builtin:{}: expected a size factor from {} to", builtin.name, size.smallest);
+            assert!(error.starts_with(&line), "{error}");
+        }
+    }
 }

@@ -32,18 +32,18 @@ pub(super) struct Palette {
 
 /// Walls of glass so thin that they do not bend light.
 fn clear(name: &str, transmittance: [f32; 3]) -> Material {
-    Material { mirror: [0.0; 3], ..glass(name, transmittance, 1.0) }
+    Material { mirror: [0.1; 3], ..glass(name, transmittance, 1.0) }
 }
 
 impl Palette {
     pub fn new(studio: &mut Studio) -> Palette {
         let mut add = |material: Material| studio.material(material);
         Palette {
-            floor: add(glossy("floor", [0.34, 0.2, 0.13], 0.2, 30.0)),
+            floor: add(polished("floor", [0.34, 0.2, 0.13], 0.08)),
             plaster: add(matt("plaster", [0.68, 0.65, 0.56])),
             frame: add(matt("window frame", [0.75, 0.74, 0.7])),
             tiles: [
-                add(glossy("white tile", [0.66, 0.67, 0.63], 0.3, 60.0)),
+                add(polished("white tile", [0.66, 0.67, 0.63], 0.06)),
                 add(glossy("blue tile", [0.2, 0.33, 0.45], 0.3, 60.0)),
             ],
             granite: add(polished("granite", [0.12, 0.115, 0.12], 0.35)),
@@ -53,9 +53,9 @@ impl Palette {
             enamel: add(glossy("white enamel", [0.68; 3], 0.3, 50.0)),
             iron: add(glossy("cast iron", [0.05; 3], 0.3, 25.0)),
             oven: add(polished("oven window", [0.03; 3], 0.25)),
-            glass: add(clear("glass", [0.9, 0.92, 0.91])),
+            glass: add(clear("glass", [0.78, 0.83, 0.82])),
             green_glass: add(clear("green glass", [0.3, 0.62, 0.32])),
-            ceramic: add(glossy("ceramic", [0.74, 0.72, 0.66], 0.4, 60.0)),
+            ceramic: add(polished("ceramic", [0.74, 0.72, 0.66], 0.05)),
             blue: add(polished("blue glaze", [0.1, 0.19, 0.42], 0.1)),
             red: add(polished("red enamel", [0.58, 0.06, 0.05], 0.12)),
             wood: add(glossy("maple", [0.62, 0.44, 0.25], 0.15, 20.0)),

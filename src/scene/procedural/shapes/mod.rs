@@ -9,6 +9,8 @@ mod normals;
 mod outline;
 mod place;
 mod prism;
+#[cfg(test)]
+mod tests;
 
 pub(super) use body::Body;
 pub(super) use box_frame::{cuboid, mitred_frame};

@@ -14,8 +14,11 @@ use std::f64::consts::TAU;
 /// How much less rough each halving is: 2 to the power of minus this.
 const SMOOTHNESS: f64 = 1.05;
 
-/// The most that the middle of the whole is lifted or lowered.
+/// The most that the middle of the largest edges is lifted or lowered, times 0.4.
 const ROUGHNESS: f64 = 0.72;
+
+/// How far the middle of the whole is lifted, in the same unit.
+const PEAK: f64 = 0.9;
 
 const BALL: f64 = 0.17;
 
@@ -65,7 +68,13 @@ fn mountain(size: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
                         (false, true) => 0.5 * (at(x, y - half) + at(x, y + half)),
                         _ => 0.25 * (at(x - half, y) + at(x + half, y) + at(x, y - half) + at(x, y + half)),
                     };
-                    heights[y * row + x] = mean + rough * noise([x, y], cells);
+                    let off = match (step == cells, odd_x && odd_y) {
+                        // A peak in the middle of everything, and gentle borders.
+                        (true, true) => PEAK,
+                        (true, false) => 0.4 * noise([x, y], cells),
+                        (false, _) => noise([x, y], cells),
+                    };
+                    heights[y * row + x] = mean + rough * off;
                 }
             }
         }
