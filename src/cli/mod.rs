@@ -12,6 +12,7 @@ mod picture;
 mod progress;
 mod render;
 mod replay;
+mod reproduce;
 mod testers;
 mod validate;
 mod view;
@@ -42,6 +43,8 @@ enum Command {
     Info(info::Args),
     /// Make a built-in scene, or list what there is
     Generate(generate::Args),
+    /// Measure the tables of a paper again, beside what it printed
+    Reproduce(reproduce::Args),
 }
 
 /// How a command that ran to its end came out.
@@ -61,6 +64,7 @@ pub fn run() -> ExitCode {
         Command::Replay(args) => replay::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Generate(args) => generate::run(&args),
+        Command::Reproduce(args) => reproduce::run(&args),
     };
     match outcome {
         Ok(Outcome::Right) => ExitCode::SUCCESS,

@@ -175,17 +175,26 @@ impl RunOptions {
     /// # Errors
     /// If the system refuses the threads.
     pub fn pool(&self) -> Result<rayon::ThreadPool> {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.map_or(0, usize::from))
-            .build()
-            .map_err(|e| Error::Usage(format!("--threads: {e}")))
+        thread_pool(self.threads)
     }
+}
+
+/// A pool of so many threads, or of all.
+///
+/// # Errors
+/// If the system refuses the threads.
+pub fn thread_pool(threads: Option<u16>) -> Result<rayon::ThreadPool> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.map_or(0, usize::from))
+        .build()
+        .map_err(|e| Error::Usage(format!("--threads: {e}")))
 }
 
 /// The most pixels of an image: their indices are 32 bits, and 2^28 are 40 GB of planes already.
 const MOST_PIXELS: u64 = 1 << 28;
 
-fn parse_size(text: &str) -> std::result::Result<ImageSize, String> {
+/// A size in pixels, such as `1920x1080`.
+pub fn parse_size(text: &str) -> std::result::Result<ImageSize, String> {
     let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     let (width, height): (u32, u32) = sides.ok_or("expected WIDTHxHEIGHT in pixels, such as 1920x1080")?;
     ImageSize::checked(width, height, MOST_PIXELS)

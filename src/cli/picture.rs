@@ -5,8 +5,7 @@ use crate::error::{Error, Result};
 use crate::film::{CategoryMap, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
-use crate::scene::Scene;
-use crate::shading::{RayForest, shade_picture};
+use crate::shading::shade_picture;
 use crate::shadow::Queries;
 use crate::verdict::{LightVerdict, TesterRun};
 use crate::visibility::VisibleSurfaces;
@@ -24,30 +23,14 @@ pub struct Preview {
 /// # Errors
 /// Never for the points of a view.
 pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> Result<ImagePlanes> {
-    let arriving: Vec<_> =
-        shadows.iter().map(|(queries, run)| arriving(&view.scene, &seen.forest, queries, run)).collect();
+    let arriving: Vec<_> = shadows.iter().map(|(queries, run)| arriving(view, seen, queries, run)).collect();
     let shaded = shade_picture(&view.scene, &view.camera, &view.scene.lights, &seen.forest, &arriving);
     picture_planes(seen.hits.size, &view.scene, &seen.forest.nodes, &shaded)
 }
 
-/// The share of a light that arrives at each point of the image, where it faces the light or lets it through.
-fn arriving(scene: &Scene, forest: &RayForest, queries: &Queries, run: &TesterRun) -> Vec<[f32; 3]> {
-    let mut shares = vec![[0.0; 3]; forest.nodes.points.len()];
-    for (i, &node) in queries.nodes.iter().enumerate().filter(|&(i, _)| !run.occluded[i]) {
-        shares[node as usize] = run.crossings.as_ref().map_or([1.0; 3], |c| c.transmittance(scene, i));
-    }
-    for &query in &queries.from_behind {
-        let (node, point) = (queries.nodes[query as usize], &queries.points[query as usize]);
-        let own = point.primitive().and_then(|p| scene.material(p).transmission);
-        if let Some(own) = own {
-            let share = &mut shares[node as usize];
-            *share = std::array::from_fn(|channel| share[channel] * own.transmittance[channel]);
-        }
-    }
-    for &node in &queries.not_receiving {
-        shares[node as usize] = [1.0; 3];
-    }
-    shares
+fn arriving(view: &View, seen: &Seen, queries: &Queries, run: &TesterRun) -> Vec<[f32; 3]> {
+    let points = seen.forest.nodes.points.len();
+    queries.arriving(&view.scene, points, &run.occluded, run.crossings.as_ref())
 }
 
 /// The run of one tester at every light.

@@ -2,5 +2,6 @@
 
 pub mod images;
 pub mod replay;
+pub mod reproduction;
 pub mod table;
 pub mod validation;

@@ -65,8 +65,8 @@ fn add_trees(scene: &Scene, forest: &RayForest, shaded: &mut [ShadedPoint]) {
         let sum = &mut sums[root(pixel)];
         *sum = std::array::from_fn(|c| sum[c] + f64::from(weight[c]) * f64::from(radiance[c]));
     };
-    for i in nodes.seen..shaded.len() {
-        add(nodes.pixels[i], forest.weights[i], shaded[i].radiance);
+    for (i, point) in shaded.iter().enumerate().skip(nodes.seen) {
+        add(nodes.pixels[i], forest.weights[i], point.radiance);
     }
     for &(pixel, weight) in &forest.sky {
         add(pixel, weight, scene.background);

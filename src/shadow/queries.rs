@@ -1,5 +1,6 @@
 //! Who is asked: the shadow queries of one light.
 
+use super::Crossings;
 use super::facing::{Facing, Sides};
 use crate::scene::{Light, Scene};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
@@ -54,5 +55,32 @@ impl Queries {
             }
         }
         queries
+    }
+
+    /// The share of the light that arrives at each of the `points` of the image, where it faces the light or lets
+    /// it through: from the answers to the queries, and from what transparent surfaces their segments cross.
+    pub fn arriving(
+        &self,
+        scene: &Scene,
+        points: usize,
+        occluded: &[bool],
+        crossings: Option<&Crossings>,
+    ) -> Vec<[f32; 3]> {
+        let mut shares = vec![[0.0; 3]; points];
+        for (i, &node) in self.nodes.iter().enumerate().filter(|&(i, _)| !occluded[i]) {
+            shares[node as usize] = crossings.map_or([1.0; 3], |c| c.transmittance(scene, i));
+        }
+        for &query in &self.from_behind {
+            let (node, point) = (self.nodes[query as usize], &self.points[query as usize]);
+            let own = point.primitive().and_then(|p| scene.material(p).transmission);
+            if let Some(own) = own {
+                let share = &mut shares[node as usize];
+                *share = std::array::from_fn(|channel| share[channel] * own.transmittance[channel]);
+            }
+        }
+        for &node in &self.not_receiving {
+            shares[node as usize] = [1.0; 3];
+        }
+        shares
     }
 }

@@ -11,6 +11,7 @@ mod outputs;
 mod polygon_writers;
 mod render;
 mod replay;
+mod reproduce;
 mod same_scene;
 mod usage;
 mod validate;

@@ -15,6 +15,7 @@ pub mod cube;
 mod cube_coherence;
 mod curved_cast;
 mod groups;
+mod occupancy;
 mod roles;
 pub mod sheet;
 #[cfg(test)]
@@ -23,6 +24,7 @@ mod transparent;
 mod walk;
 
 pub use audit::Audit;
+pub use occupancy::Occupancy;
 
 use super::{
     Basis, BuildInput, Casters, Counters, Crossings, ObjectCoherence, Receivers, Resolution, ShadowTester,

@@ -19,7 +19,7 @@ pub(super) struct TransparentLists {
     endless: Vec<u32>,
     cells: Cells,
     resolution: u32,
-    sides: Vec<Option<SideLists>>,
+    pub(super) sides: Vec<Option<SideLists>>,
 }
 
 impl TransparentLists {
