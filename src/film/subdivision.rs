@@ -51,7 +51,7 @@ fn mean(values: impl Iterator<Item = f32>) -> f32 {
 /// [`Error::Usage`] if the sides are no multiples of `samples`, or there is no channel `A`.
 pub fn subdivided(planes: &ImagePlanes, samples: u32) -> Result<ImagePlanes> {
     let fine = planes.size();
-    if samples == 0 || fine.width % samples != 0 || fine.height % samples != 0 {
+    if !(fine.width.is_multiple_of(samples) && fine.height.is_multiple_of(samples)) {
         let ImageSize { width, height } = fine;
         return Err(Error::Usage(format!("{width}x{height} samples: not {samples}x{samples} a pixel")));
     }
