@@ -53,10 +53,10 @@ fn a_ply_that_declares_more_than_it_holds() {
 }
 
 #[test]
-fn an_nff_with_a_sphere() {
+fn an_nff_that_lets_more_light_through_than_there_is() {
     let folder = Folder::new();
-    let scene = folder.write("ball.nff", "f 1 1 1 1 0 1 0 0\np 3\n0 0 0\n1 0 0\n0 1 0\ns 0 0 0 1\n");
-    refused(&folder, &scene, "ball.nff:6: spheres are not supported yet");
+    let scene = folder.write("ball.nff", "f 1 1 1 1 0 1 2 1\ns 0 0 0 1\n");
+    refused(&folder, &scene, "ball.nff:1: expected a transmittance from 0 to 1, found 2");
 }
 
 #[test]
