@@ -44,7 +44,7 @@ test-scenes: packages
 	@if [ ! -d "$(SCENES)" ]; then \
 		echo "make test-scenes: there is no folder $(SCENES); say make test-scenes SCENES=folder" >&2; exit 2; fi
 	SCENES="$$(cd "$(SCENES)" && pwd)" \
-		$(CARGO) test --release --features test-scenes --test shared_scenes --test shared_databases -- --nocapture --test-threads=1
+		$(CARGO) test --release --features test-scenes --test shared_scenes --test shared_databases --test shared_ray_trees -- --nocapture --test-threads=1
 
 lint: packages
 	$(CARGO) fmt --check

@@ -13,12 +13,12 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`geometry`] | exact signs behind proven float filters, footprints, convexity |
+//! | [`geometry`] | exact signs behind proven float filters, curved surfaces, footprints, convexity |
 //! | `embree` | the safe wrapper of `ffi/`, with the feature `embree` |
 //! | [`scene`] | [`Scene`], objects, lights, cameras, and the file formats |
-//! | [`visibility`] | [`visibility::t_buffer`], [`visibility::classical`], [`SurfacePoint`] |
+//! | [`visibility`] | [`visibility::t_buffer`], [`visibility::classical`], [`visibility::hierarchy`], [`SurfacePoint`] |
 //! | [`shadow`] | [`ShadowTester`], the registry, one room a tester |
-//! | [`shading`] | ambient, Lambert and Phong |
+//! | [`shading`] | ambient, Lambert and Phong, textures, ray trees |
 //! | [`film`] | image planes, OpenEXR, PNG, false colour |
 //! | [`memory`] | the limit that is checked before memory is asked for |
 //! | [`measure`] | running and timing testers |
@@ -31,9 +31,10 @@
 //! - **surface point**: the exact intersection of a camera ray (a float origin and a float direction) with
 //!   the primitive that the pixel sees. What is stored is that point, correctly rounded, and what makes it
 //!   exact.
-//! - **shadow query**: a surface point and a light. It is **occluded** if some triangle meets the open
-//!   segment between them, else lit. Triangles are closed, those seen edge-on from the light never block,
-//!   and nothing in the receiver's own plane blocks. There is no epsilon.
+//! - **shadow query**: a surface point and a light. It is **occluded** if some opaque primitive meets the open
+//!   segment between them, else lit. Primitives are closed, those seen edge-on from the light never block,
+//!   and nothing in the receiver's own plane blocks. There is no epsilon. Transparent primitives never occlude:
+//!   each one that is crossed attenuates.
 //! - **facing away**: dark without a query, because the camera and the light are not strictly on the same
 //!   side of the surface.
 //! - **touching**: a query on the very edge between light and shadow. A flag, not an answer.
@@ -74,6 +75,7 @@
 
 #![warn(missing_docs)]
 
+mod atomic;
 pub mod cli;
 #[cfg(feature = "embree")]
 pub mod embree;

@@ -108,8 +108,8 @@ plant first-hits-of-two-sides src/geometry/solid/outside.rs \
     what_rays_cannot_tell_is_not_outside
 
 plant receivers-that-cast-nothing-forgotten $buffer/roles.rs \
-    'triangles.chain(culled.iter().copied()).filter(may_be_asked).collect()' \
-    'triangles.chain(culled.iter().copied()).filter(may_be_asked).take(0).collect()' \
+    'primitives.chain(culled.iter().copied()).filter(may_be_asked).collect()' \
+    'primitives.chain(culled.iter().copied()).filter(may_be_asked).take(0).collect()' \
     every_exact_tester_is_right_in_every_case_at_every_resolution
 
 plant receivers-ignored-in-a-cell $buffer/cell.rs \
@@ -123,7 +123,7 @@ plant group-ends-the-walk $buffer/walk.rs \
     what_follows_a_group_is_looked_at_when_a_member_lies_behind_the_point
 
 plant base-surface-rule-dropped $buffer/walk.rs \
-    'if asked.base == Some(primitive) || asked' 'if asked' \
+    'if asked.untested == Some(primitive) || asked' 'if asked' \
     the_base_surface_is_not_tested
 
 plant depth-not-rounded-down $buffer/build.rs \
@@ -135,7 +135,7 @@ plant filter-without-slack src/geometry/light_triangle.rs \
     no_filter_contradicts_exact_arithmetic
 
 plant closed-triangle-opened src/geometry/occlusion.rs \
-    'self.exact_edge(corners, i).sign() == Sign::Negative' 'self.exact_edge(corners, i).sign() != Sign::Positive' \
+    'self.exact_edge(corners, i).sign() != Sign::Negative' 'self.exact_edge(corners, i).sign() == Sign::Positive' \
     all_exact_testers_agree_with_the_definition_on_random_scenes
 
 plant hole-at-the-wrong-corner src/geometry/texel.rs \
@@ -147,8 +147,20 @@ plant footprint-of-a-ray-too-narrow src/visibility/t_buffer.rs \
     equals_classical_ray_tracing_in_any_object_order
 
 plant tie-by-index src/visibility/hit.rs \
-    'order.then_with(|| tie_order(scene, new.0, old.0)) == Ordering::Less' 'order == Ordering::Less' \
+    'order.then_with(|| tie_order(scene, new.primitive, old.primitive)) == Ordering::Less' 'order == Ordering::Less' \
     coplanar_faces_are_drawn_the_same_in_any_object_order
+
+plant hull-too-small src/geometry/curved/hull.rs \
+    'unit * (1.0 + MARGIN + ' 'unit * (0.8 + MARGIN + ' \
+    all_exact_testers_agree_on_curved_and_transparent_surfaces
+
+plant shared-edge-crossed-twice src/geometry/occlusion.rs \
+    'Sign::Zero => self.perturbed_edge(corners, i) == Sign::Positive' 'Sign::Zero => true' \
+    panes_that_share_edges_are_crossed_once
+
+plant own-curved-surface-not-tested $buffer/walk.rs \
+    'untested: base.filter(|&base| !self.scene.is_curved(base))' 'untested: base' \
+    all_exact_testers_agree_on_curved_and_transparent_surfaces
 
 [ "$planted" -gt 0 ] || { echo "no planted bug is called $only"; exit 2; }
 rm -rf "$copy"

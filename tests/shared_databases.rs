@@ -8,8 +8,12 @@ use lightbuffer::scene::procedural;
 use lightbuffer::scene::{Material, PrimitiveIndex, Scene, formats};
 use std::path::PathBuf;
 
-/// The same place on a mirror of six digits, for coordinates up to a hundred.
-const TOLERANCE: f64 = 3e-5;
+/// How far numbers may be off that are differences of such as were written with six digits, the largest of
+/// which the feature holds too.
+fn tolerance(feature: &[f64]) -> f64 {
+    let largest = feature.iter().fold(0.0f64, |largest, number| largest.max(number.abs()));
+    3e-5 + 1.2e-5 * largest
+}
 
 fn from_file(name: &str) -> Scene {
     let help = "run: make test-scenes SCENES=folder";
@@ -79,9 +83,10 @@ fn sets(scene: &Scene) -> [Vec<Vec<f64>>; 3] {
 /// The first feature of one set that the other lacks.
 fn missing<'a>(wanted: &'a [Vec<f64>], there: &[Vec<f64>]) -> Option<&'a Vec<f64>> {
     wanted.iter().find(|feature| {
-        let first = there.partition_point(|other| other[0] < feature[0] - TOLERANCE);
-        let near = there[first..].iter().take_while(|other| other[0] <= feature[0] + TOLERANCE);
-        let same = |other: &Vec<f64>| feature.iter().zip(other).all(|(a, b)| (a - b).abs() <= TOLERANCE);
+        let off = tolerance(feature);
+        let first = there.partition_point(|other| other[0] < feature[0] - off);
+        let near = there[first..].iter().take_while(|other| other[0] <= feature[0] + off);
+        let same = |other: &Vec<f64>| feature.iter().zip(other).all(|(a, b)| (a - b).abs() <= off);
         !near.clone().any(same)
     })
 }

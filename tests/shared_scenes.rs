@@ -6,7 +6,9 @@
 
 use lightbuffer::geometry::curved::Shape;
 use lightbuffer::measure::{Question, answer, timed};
-use lightbuffer::scene::{Camera, CurvedPrimitive, Dropped, Framing, ImageSize, Scene, formats, frame};
+use lightbuffer::scene::{
+    Camera, CurvedPrimitive, Dropped, Framing, ImageSize, Object, Scene, formats, frame,
+};
 use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::{BuildInput, Resolution, SceneIndex, find};
 use lightbuffer::verdict::{LightVerdict, Progress, check_arbiter, judge};
@@ -276,6 +278,29 @@ fn every_procedural_database_is_whole() {
         assert_eq!(scene.background, [0.078, 0.361, 0.753], "{name}");
         println!("{name}: {:?}, {:?}", scene.dropped, scene.warnings);
         assert_eq!(scene.dropped, Dropped::default(), "{name}");
+        comes_back(&scene);
+    }
+}
+
+/// Writes a scene in both formats that are written and compares what is read back.
+fn comes_back(scene: &Scene) {
+    let folder = tempfile::tempdir().unwrap();
+    for format in ["toml", "nff"] {
+        let path = folder.path().join(format!("again.{format}"));
+        formats::save(scene, &path).unwrap();
+        let again = formats::load(&path).unwrap();
+        assert_eq!((scene.hash(), scene.objects.len()), (again.hash(), again.objects.len()), "{format}");
+        assert_eq!((scene.curved == again.curved, scene.background), (true, again.background));
+        let counts = |scene: &Scene| -> Vec<_> {
+            let polygons = |polygons: u32, count: u32| if format == "nff" { count } else { polygons };
+            let counts = |o: &Object| (o.count, polygons(o.polygons, o.count), o.curved_count);
+            scene.objects.iter().map(counts).collect()
+        };
+        assert!(counts(scene) == counts(&again), "{} as {format}", scene.name);
+        if format == "toml" {
+            assert_eq!((&scene.cameras, &scene.materials), (&again.cameras, &again.materials));
+        }
+        assert_eq!(scene.lights, again.lights);
     }
 }
 

@@ -1,12 +1,12 @@
 //! `lightbuffer generate`: a built-in scene as a file, or a list of them.
 
 use super::{Outcome, output};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::film::grouped;
-use crate::scene::Scene;
+use crate::scene::formats;
 use crate::scene::procedural::{BUILTIN, find};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -28,16 +28,11 @@ pub fn run(args: &Args) -> Result<Outcome> {
     match (&args.name, &args.output) {
         (Some(name), Some(path)) => {
             let scene = find(name)?.build(args.size_factor)?;
-            save(&scene, path)?;
+            formats::save(&scene, path)?;
         }
         _ => output::print(&list()?)?,
     }
     Ok(Outcome::Right)
-}
-
-fn save(scene: &Scene, path: &Path) -> Result<()> {
-    let _ = path;
-    Err(Error::Usage(format!("{}: scenes cannot be written to files yet", scene.name)))
 }
 
 /// A line for each scene: name, what it holds at its standard size, and what it shows.

@@ -10,7 +10,7 @@ use crate::film::grouped;
 use crate::geometry::LightPosition;
 use crate::geometry::convexity::Surface;
 use crate::geometry::solid::Refusal;
-use crate::scene::Light;
+use crate::scene::{Light, Object, Scene};
 use crate::shadow::SceneIndex;
 use serde::Serialize;
 use std::fmt::Write;
@@ -101,7 +101,9 @@ fn facts(view: &View) -> Facts {
     let scene = &view.scene;
     let index = SceneIndex::new(scene);
     let surfaces = |wanted: Surface| {
-        index.convexity.iter().flatten().filter(|convexity| convexity.surface == wanted).count()
+        let objects = scene.objects.iter().zip(&index.convexity);
+        let convex = objects.filter(|(object, _)| object.count > 0).filter_map(|(_, c)| c.as_ref());
+        convex.filter(|convexity| convexity.surface == wanted).count()
     };
     let solids = index.solids(scene);
     let refused = |why: Refusal| solids.refused.get(&why).copied().unwrap_or(0);
@@ -113,7 +115,7 @@ fn facts(view: &View) -> Facts {
         counts: Counts::of(scene),
         vertices: scene.vertices.len(),
         casting: index.casting.len(),
-        duplicates: scene.triangles.len() - index.casting.len(),
+        duplicates: blocking_triangles(scene) - index.casting.len(),
         degenerate: scene.dropped.degenerate,
         non_finite: scene.dropped.non_finite,
         dropped_curved: scene.dropped.curved,
@@ -221,4 +223,12 @@ fn text(facts: &Facts) -> String {
         let _ = writeln!(out, "  camera {camera}");
     }
     out
+}
+
+/// Triangles of opaque objects that cast, exact duplicates counted each.
+fn blocking_triangles(scene: &Scene) -> usize {
+    let blocks = |object: &&Object| {
+        object.shadowing.casts && scene.materials[object.material as usize].transmission.is_none()
+    };
+    scene.objects.iter().filter(blocks).map(|object| object.count as usize).sum()
 }

@@ -6,7 +6,7 @@ use super::testers::expect_available;
 use super::view::{Seen, View};
 use super::{Outcome, output, picture, validate};
 use crate::error::Result;
-use crate::film::{unique_safe_names, write_exr};
+use crate::film::{subdivided, unique_safe_names, write_exr};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
@@ -34,6 +34,9 @@ pub struct Args {
     /// Leave out the difference and verdict channels, and the time that Embree and the truth take
     #[arg(long)]
     no_verdict: bool,
+    /// Samples a pixel along each side, without difference and verdict channels: 3 is nine a pixel
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
+    subdivide: u32,
     /// Facts of the run as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -72,6 +75,13 @@ struct LightFacts {
     bytes: usize,
 }
 
+impl Args {
+    /// Codes of a verdict have no mean.
+    fn without_verdict(&self) -> bool {
+        self.no_verdict || self.subdivide > 1
+    }
+}
+
 pub fn run(args: &Args) -> Result<Outcome> {
     let messages = Messages::new(args.run.quiet);
     args.run.pool()?.install(|| render(args, messages))
@@ -82,11 +92,12 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     expect_available(tester)?;
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
-    let view = View::load(&args.view, &args.lights, messages)?;
+    let mut view = View::load(&args.view, &args.lights, messages)?;
+    view.subdivide(args.subdivide)?;
     let seen = view.look(args.trees.depth, args.run.memory_limit())?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
-    let embree = if args.no_verdict {
+    let embree = if args.without_verdict() {
         None
     } else {
         validate::embree_facts(threads, args.run.embree_epsilon, messages)?
@@ -101,7 +112,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
         let input = args.run.build_input(&view.scene, &index, position);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
-        let shadow = if args.no_verdict {
+        let shadow = if args.without_verdict() {
             Shadow::Alone(run_tester(tester, &input, &queries, &bars)?)
         } else {
             Shadow::Judged(judge(&input, &queries, &entries, &bars)?)
@@ -167,6 +178,7 @@ fn write(
     }
     let testers: Vec<_> = entries.iter().map(|entry| entry.name).collect();
     picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree)?;
+    let planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
     write_exr(&args.output, &planes)?;
     output::write_preview(&args.output.with_extension("png"), &planes, args.run.exposure)?;
     let Some(path) = &args.json else { return Ok(()) };
@@ -183,8 +195,8 @@ fn write(
     };
     let facts = Facts {
         scene: view.scene.name.clone(),
-        width: view.size.width,
-        height: view.size.height,
+        width: view.size.width / args.subdivide,
+        height: view.size.height / args.subdivide,
         shadow: args.shadow.clone(),
         lights: view.scene.lights.iter().zip(&runs).map(light_facts).collect(),
     };

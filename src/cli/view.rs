@@ -53,6 +53,17 @@ impl View {
         Ok(View { scene, camera, size, added })
     }
 
+    /// Takes so many samples a pixel along each side.
+    ///
+    /// # Errors
+    /// If the image would have more pixels than one may have.
+    pub fn subdivide(&mut self, samples: u32) -> Result<()> {
+        let side = |pixels: u32| pixels.saturating_mul(samples);
+        let size = ImageSize::checked(side(self.size.width), side(self.size.height), MOST_SAMPLES);
+        self.size = size.map_err(|why| Error::Usage(format!("--subdivide {samples}: {why}")))?;
+        Ok(())
+    }
+
     /// First hits by the t-buffer, and the ray trees behind them of so many rays one behind the other.
     ///
     /// # Errors
@@ -73,6 +84,9 @@ impl View {
         Ok(Seen { hits, forest })
     }
 }
+
+/// The most samples of a picture: as many pixels as an image may have, sixteen times.
+const MOST_SAMPLES: u64 = 1 << 28;
 
 /// Bytes of a pixel: planes of the picture, its item in the t-buffer, its surface point and shading.
 const PIXEL_BYTES: u64 =

@@ -4,7 +4,6 @@
 //! people ([`write_png_rgb`], [`write_false_colour`]). The bytes of every file depend on what it shows and
 //! on nothing else: not on threads, time or place. Files appear whole or not at all ([`write_atomically`]).
 
-mod atomic;
 mod attribute_order;
 mod canvas;
 mod digits;
@@ -17,9 +16,10 @@ mod open_exr;
 pub mod palette;
 mod planes;
 mod png;
+mod subdivision;
 mod tone;
 
-pub use atomic::write_atomically;
+pub use crate::atomic::write_atomically;
 pub use digits::grouped;
 pub use exr_reader::read_exr;
 pub use false_colour::{Category, CategoryMap, write_false_colour};
@@ -28,4 +28,5 @@ pub use names::{safe_light_name, unique_safe_names};
 pub use open_exr::write_exr;
 pub use planes::{ImagePlanes, Plane};
 pub use png::write_png_rgb;
+pub use subdivision::subdivided;
 pub use tone::{ToneMap, linear_to_srgb8};

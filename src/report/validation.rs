@@ -52,6 +52,10 @@ pub struct LightReport {
     pub name: String,
     /// Shadow queries: visible points that face the light.
     pub queries: u64,
+    /// Those of them that it reaches from behind, through their own transparent surface. Left out where there is
+    /// none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub from_behind: u64,
     /// Visible points that face away from it.
     pub facing_away: u64,
     /// Visible points that face it and are outside its cone.
@@ -67,6 +71,10 @@ pub struct LightReport {
     /// The arbiter against the plain definition, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arbiter_check: Option<ArbiterCheck>,
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// One tester at one light.
@@ -134,6 +142,7 @@ impl LightReport {
         LightReport {
             name: name.into(),
             queries: queries.points.len() as u64,
+            from_behind: queries.from_behind.len() as u64,
             facing_away: queries.facing_away.len() as u64,
             outside_cone: queries.outside_cone.len() as u64,
             not_receiving: queries.not_receiving.len() as u64,

@@ -83,7 +83,7 @@ pub struct SceneBuilder {
 
 /// Names that are taken, each with the number that its next namesake tries first.
 #[derive(Default)]
-struct Names(HashMap<String, u32>);
+pub(super) struct Names(HashMap<String, u32>);
 
 impl Names {
     fn of<'a>(taken: impl Iterator<Item = &'a String>) -> Names {
@@ -91,7 +91,7 @@ impl Names {
     }
 
     /// The name, with a number if it is taken.
-    fn take(&mut self, wanted: String) -> String {
+    pub(super) fn take(&mut self, wanted: String) -> String {
         let mut name = wanted.clone();
         if let Some(&first) = self.0.get(&wanted) {
             let mut number = first;

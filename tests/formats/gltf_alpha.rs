@@ -58,7 +58,7 @@ fn a_texel_is_there_from_the_cutoff_on() {
 fn transparent_surfaces_are_there_from_one_half_on() {
     let scene = load(&painted(json!({ "alphaMode": "BLEND", "alphaCutoff": 0.9 })));
     assert_eq!(only_mask(&scene), [false, false, true, true, true, false]);
-    let warning = "transparent materials count as there where their alpha is at least one half (1 material)";
+    let warning = "transparent textures count as there where their alpha is at least one half (1 material)";
     assert_eq!(warned(&scene, warning), 2);
 }
 

@@ -18,6 +18,7 @@ mod toml_curved;
 mod toml_files;
 mod toml_page;
 mod toml_transforms;
+mod written;
 
 use lightbuffer::scene::Scene;
 

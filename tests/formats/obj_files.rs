@@ -69,7 +69,8 @@ fn materials_come_from_libraries_beside_the_file() {
     folder.write(
         "sub folder/paint.mtl",
         "# remark\nnewmtl red\nKd 1 0.25 0\nKs 0.5 0.5 0.5\nNs 32\nnewmtl matt\nKd 0.5\nKs 1 1 1\nillum 1\n\
-         map_Kd no-such-file.png\nnewmtl odd\nKd spectral some.rfl\nd 0.5\n",
+         map_Kd no-such-file.png\nnewmtl odd\nKd spectral some.rfl\nd 0.5\n\
+         newmtl glass\nKd 1 1 1\nTr 0.25\nNi 1.5\nillum 7\nnewmtl both\nNi 1.5\nd 1\nTr 1\nnewmtl rim\nd -halo 0.1\n",
     );
     let text =
         "mtllib sub folder/paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl matt\nf 1 2 3\n";
@@ -80,7 +81,12 @@ fn materials_come_from_libraries_beside_the_file() {
     let matt = scene.material(1);
     assert_eq!((matt.diffuse, matt.specular), ([0.5; 3], [0.0; 3]));
     warned(&scene, "textures are not drawn (1 material)");
-    warned(&scene, "transparent materials are drawn opaque (1 material)");
+    let passes =
+        |index: usize| scene.materials[index].transmission.map(|t| (t.transmittance, t.refractive_index));
+    let all: Vec<_> = (0..scene.materials.len()).map(passes).collect();
+    assert_eq!(all, [None, None, None, Some(([0.5; 3], 1.0)), Some(([0.25; 3], 1.5)), None, None]);
+    assert_eq!((scene.materials[3].diffuse, scene.materials[4].diffuse), ([0.35; 3], [0.75; 3]));
+    warned(&scene, "materials that thin out towards the rim are drawn opaque (1 material)");
     assert_eq!(warned(&scene, "spectral"), 3);
 }
 

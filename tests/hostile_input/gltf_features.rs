@@ -72,7 +72,7 @@ fn zeros_that_no_byte_stands_for() {
     let few = |d: &mut Value| {
         d["accessors"][0] = json!({ "componentType": 5126, "count": 3, "type": "VEC3" });
     };
-    spoilt(few, &["expected at least one triangle, found 1 of zero area"]);
+    spoilt(few, &["found 1 of zero area"]);
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn morph_targets_that_do_not_fit() {
     );
     spoilt(
         morphed(|_| json!({ "POSITION": 0 }), json!([1e300])),
-        &["expected at least one triangle, found 1 of zero area or with numbers that are not finite"],
+        &["found 1 of zero area or with numbers that are not finite"],
     );
 }
 

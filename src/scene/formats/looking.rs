@@ -8,6 +8,9 @@ use glam::Vec3;
 /// another axis.
 const PARALLEL: f64 = 1e-11;
 
+/// How far products of a camera's axes may be from 1 and 0.
+const TOLERANCE: f32 = 1e-3;
+
 /// Why a camera has no picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Blind {
@@ -42,4 +45,12 @@ pub(super) fn camera(name: &str, [from, at, up]: [Vec3; 3], vertical_degrees: f6
         return Err(Blind::UpAhead);
     }
     Ok(Camera::look_at(name, from, at, up, vertical_degrees))
+}
+
+/// Whether these are unit vectors at right angles, and right-handed if one looks against the last.
+pub(super) fn are_upright(right: Vec3, up: Vec3, forward: Vec3) -> bool {
+    let products = [right.dot(up), up.dot(forward), forward.dot(right)];
+    let lengths = [right, up, forward].map(|axis| axis.length_squared() - 1.0);
+    let near = |error: f32| error.abs() <= TOLERANCE;
+    products.into_iter().chain(lengths).all(near) && right.cross(up).dot(forward) < 0.0
 }

@@ -1,4 +1,4 @@
-//! Scene files: one module a format, one entry for all.
+//! Scene files: one module a format, one entry for all, [`load`]; and [`save`] for those that are written.
 //!
 //! Input is hostile. Every loader reads its bytes through `confined`, checks what a file declares against
 //! what it holds before memory is asked for, keeps within [`limits`], and turns whatever it cannot read into
@@ -13,9 +13,12 @@ mod obj;
 mod pictures;
 mod ply;
 pub(super) mod polygon;
+mod save;
 pub(super) mod shading_normals;
 mod text;
 mod toml;
+
+pub use save::save;
 
 use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};

@@ -1,12 +1,14 @@
 //! Alpha: where the surfaces of a material are there.
 //!
 //! With `alphaMode` MASK a texel is there if its alpha times that of `baseColorFactor` is at least
-//! `alphaCutoff`. With BLEND it is there from one half on: until transparent surfaces are drawn, that is where
-//! they are more there than not. Both are decided here, in f64, texel by texel and without any filter.
+//! `alphaCutoff`. With BLEND it is there from one half on, where it is more there than not, if the material has
+//! a texture. Both are decided here, in f64, texel by texel and without any filter. A material that is blended
+//! and has none lets the same share of light pass everywhere, see [`materials`].
 
 use super::accessors::Accessors;
 use super::buffers::Buffers;
 use super::images::{self, Spent};
+use super::materials;
 use super::schema::{Document, MaterialEntry};
 use super::textures::{self, Placement};
 use crate::scene::formats::text::printable;
@@ -98,6 +100,9 @@ impl<'a> Masks<'a> {
         };
         let surface = &entry.pbr_metallic_roughness;
         let factor = surface.base_color_factor.map_or(1.0, |[.., alpha]| alpha.clamp(0.0, 1.0));
+        if materials::is_evenly_blended(entry) {
+            return Ok(if factor > 0.0 { Presence::Solid } else { Presence::Absent });
+        }
         // No texel has more than the factor and none less than nothing: then no image is needed.
         if factor < cutoff {
             return Ok(Presence::Absent);

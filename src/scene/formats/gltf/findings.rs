@@ -2,6 +2,7 @@
 
 use super::SUPPORTED;
 use super::alpha::Presence;
+use super::materials;
 use super::schema::{Document, MaterialEntry};
 use crate::scene::SceneBuilder;
 use crate::scene::formats::text::{counted, printable};
@@ -33,10 +34,12 @@ impl Findings {
                 || surface.metallic_roughness_texture.is_some()
                 || entry.normal_texture.is_some()
                 || entry.occlusion_texture.is_some()
-                || entry.emissive_texture.is_some(),
+                || entry.emissive_texture.is_some()
+                || entry.extensions.transmission.as_ref().is_some_and(|t| t.transmission_texture.is_some()),
         );
         self.unreadable += usize::from(*presence == Presence::Unreadable);
-        self.blended += usize::from(entry.alpha_mode.as_deref() == Some("BLEND"));
+        let is_blended = entry.alpha_mode.as_deref() == Some("BLEND");
+        self.blended += usize::from(is_blended && !materials::is_evenly_blended(entry));
         self.emissive += usize::from(entry.emissive_factor.is_some_and(|factor| factor != [0.0; 3]));
     }
 
@@ -78,7 +81,7 @@ impl Findings {
             (self.unreadable, "alpha of textures that an extension brings is drawn opaque", "material"),
             (
                 self.blended,
-                "transparent materials count as there where their alpha is at least one half",
+                "transparent textures count as there where their alpha is at least one half",
                 "material",
             ),
             (self.absent, "surfaces that are nowhere opaque are left out", "triangle"),

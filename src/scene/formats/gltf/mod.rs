@@ -113,8 +113,14 @@ pub(super) fn load(path: &Path, named: Container) -> Result<Scene> {
 }
 
 /// Extensions whose demands are met.
-const SUPPORTED: [&str; 4] =
-    ["EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform"];
+const SUPPORTED: [&str; 6] = [
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
 
 /// Whether an extension concerns the look of surfaces alone: without it the geometry is still right.
 fn is_appearance(extension: &str) -> bool {

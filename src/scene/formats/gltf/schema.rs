@@ -236,6 +236,30 @@ pub(super) struct MaterialEntry {
     pub(super) emissive_factor: Option<[f64; 3]>,
     pub(super) alpha_mode: Option<String>,
     pub(super) alpha_cutoff: Option<f64>,
+    #[serde(default)]
+    pub(super) extensions: MaterialExtensions,
+}
+
+#[derive(Deserialize, Default)]
+pub(super) struct MaterialExtensions {
+    #[serde(rename = "KHR_materials_transmission")]
+    pub(super) transmission: Option<TransmissionEntry>,
+    #[serde(rename = "KHR_materials_ior")]
+    pub(super) ior: Option<IorEntry>,
+}
+
+/// How much light passes through a surface.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TransmissionEntry {
+    pub(super) transmission_factor: Option<f64>,
+    pub(super) transmission_texture: Option<IgnoredAny>,
+}
+
+/// How it is bent.
+#[derive(Deserialize)]
+pub(super) struct IorEntry {
+    pub(super) ior: Option<f64>,
 }
 
 #[derive(Deserialize, Default)]

@@ -94,7 +94,7 @@ fn read(text: &[u8], builder: &mut SceneBuilder) -> std::result::Result<(), Comp
         }
     }
     fills.finish_object(builder).map_err(|why| (words.line(), why))?;
-    let share = std::f64::consts::PI * (lamps.len() as f64).sqrt() / (2.0 * lamps.len() as f64);
+    let share = share(lamps.len());
     for (index, lamp) in lamps.iter().enumerate() {
         builder.add_light(lamp.light(index, share));
     }
@@ -106,8 +106,13 @@ fn read(text: &[u8], builder: &mut SceneBuilder) -> std::result::Result<(), Comp
     Ok(())
 }
 
+/// The intensity of each of so many lights, where its colour is 1.
+pub(super) fn share(lights: usize) -> f64 {
+    std::f64::consts::PI * (lights as f64).sqrt() / (2.0 * lights as f64)
+}
+
 /// The most that a channel of a light's colour may be, so that all that is computed from it is finite.
-const BRIGHTEST: f32 = 1e30;
+pub(super) const BRIGHTEST: f32 = 1e30;
 
 /// Whether all channels are in range.
 fn check_colour(channels: &[f32]) -> std::result::Result<(), String> {

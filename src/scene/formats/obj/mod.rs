@@ -268,6 +268,6 @@ fn warn(
     );
     note(leftovers.normals, "normals of zero or infinite length are replaced by the face's", "corner");
     note(not_drawn.textures, "textures are not drawn", "material");
-    note(not_drawn.transparent, "transparent materials are drawn opaque", "material");
+    note(not_drawn.halos, "materials that thin out towards the rim are drawn opaque", "material");
     note(not_drawn.other_colours, "spectral and CIE XYZ colours are not drawn", "line");
 }

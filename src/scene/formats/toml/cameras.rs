@@ -11,9 +11,6 @@ use glam::Vec3;
 /// The field of view of a camera that says none.
 const USUAL_DEGREES: f64 = 45.0;
 
-/// How far products of a camera's axes may be from 1 and 0.
-const TOLERANCE: f32 = 1e-3;
-
 /// The camera of a table; `index` counts from 0 and names it if it has no name.
 ///
 /// # Errors
@@ -36,7 +33,7 @@ pub(super) fn read(entry: &CameraEntry, index: usize) -> Result<Camera, String> 
         }
         (None, Some(Exactly(axes))) if entry.up.is_none() => {
             let [right, up, forward] = axes.map(|axis| axis.0);
-            if !are_upright(right, up, forward) {
+            if !looking::are_upright(right, up, forward) {
                 return Err(
                     "expected `axes` to be unit vectors to the right, up and ahead, at right angles".into()
                 );
@@ -63,12 +60,4 @@ fn tan_half_height(entry: &CameraEntry) -> Result<f64, String> {
             Ok(libm::tan(degrees.to_radians() * 0.5))
         }
     }
-}
-
-/// Whether these are unit vectors at right angles, and right-handed if one looks against the last.
-fn are_upright(right: Vec3, up: Vec3, forward: Vec3) -> bool {
-    let products = [right.dot(up), up.dot(forward), forward.dot(right)];
-    let lengths = [right, up, forward].map(|axis| axis.length_squared() - 1.0);
-    let near = |error: f32| error.abs() <= TOLERANCE;
-    products.into_iter().chain(lengths).all(near) && right.cross(up).dot(forward) < 0.0
 }

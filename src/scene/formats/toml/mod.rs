@@ -25,6 +25,9 @@ mod totals;
 mod transforms;
 mod values;
 
+pub(super) use self::transforms::cosine_of_degrees;
+pub(super) use self::values::BRIGHTEST;
+
 use self::library::{Library, Source};
 use super::scene_name;
 use super::text::printable;

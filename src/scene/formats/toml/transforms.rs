@@ -75,6 +75,11 @@ pub(super) fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     }
 }
 
+/// The cosine of an angle in degrees, as cones of lights have it.
+pub(in crate::scene::formats) fn cosine_of_degrees(degrees: f64) -> f64 {
+    sin_cos_degrees(degrees).1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

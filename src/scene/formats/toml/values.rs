@@ -6,7 +6,7 @@ use std::fmt;
 use std::marker::PhantomData;
 
 /// The most that a channel of a light may be, so that all that is computed from it is finite.
-const BRIGHTEST: f64 = 1e30;
+pub(in crate::scene::formats) const BRIGHTEST: f64 = 1e30;
 
 /// A finite number, written with or without a point.
 #[derive(Debug, Clone, Copy, PartialEq)]

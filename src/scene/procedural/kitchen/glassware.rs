@@ -8,15 +8,15 @@ pub(super) fn add(set: &mut Set) -> Result<()> {
     let Set { studio, palette } = set;
     for (number, [x, z]) in [[1.32, 0.44], [1.43, 0.5], [1.36, 0.3]].into_iter().enumerate() {
         let name = format!("wine glass {}", number + 1);
-        studio.add(format!("{name} foot"), palette.glass, funnel([x, ON_TOP, z], [0.034, 0.005], 0.012))?;
+        studio.add(format!("{name} foot"), palette.crystal, funnel([x, ON_TOP, z], [0.034, 0.005], 0.012))?;
         studio.add(
             format!("{name} stem"),
-            palette.glass,
+            palette.crystal,
             funnel([x, ON_TOP + 0.013, z], [0.005, 0.004], 0.07),
         )?;
         studio.add(
             format!("{name} bowl"),
-            palette.glass,
+            palette.crystal,
             funnel([x, ON_TOP + 0.084, z], [0.012, 0.037], 0.085),
         )?;
     }

@@ -17,6 +17,7 @@ pub(super) struct Palette {
     pub oven: u32,
     pub glass: u32,
     pub green_glass: u32,
+    pub crystal: u32,
     pub ceramic: u32,
     pub blue: u32,
     pub red: u32,
@@ -30,9 +31,9 @@ pub(super) struct Palette {
     pub paper: u32,
 }
 
-/// Walls of glass so thin that they do not bend light.
-fn clear(name: &str, transmittance: [f32; 3]) -> Material {
-    Material { mirror: [0.1; 3], ..glass(name, transmittance, 1.0) }
+/// Walls of glass so thin that they bend light only a little.
+fn clear(name: &str, transmittance: [f32; 3], mirror: f32) -> Material {
+    Material { mirror: [mirror; 3], ..glass(name, transmittance, 1.08) }
 }
 
 impl Palette {
@@ -43,7 +44,7 @@ impl Palette {
             plaster: add(matt("plaster", [0.68, 0.65, 0.56])),
             frame: add(matt("window frame", [0.75, 0.74, 0.7])),
             tiles: [
-                add(polished("white tile", [0.66, 0.67, 0.63], 0.06)),
+                add(glossy("white tile", [0.66, 0.67, 0.63], 0.3, 60.0)),
                 add(glossy("blue tile", [0.2, 0.33, 0.45], 0.3, 60.0)),
             ],
             granite: add(polished("granite", [0.12, 0.115, 0.12], 0.35)),
@@ -53,8 +54,9 @@ impl Palette {
             enamel: add(glossy("white enamel", [0.68; 3], 0.3, 50.0)),
             iron: add(glossy("cast iron", [0.05; 3], 0.3, 25.0)),
             oven: add(polished("oven window", [0.03; 3], 0.25)),
-            glass: add(clear("glass", [0.78, 0.83, 0.82])),
-            green_glass: add(clear("green glass", [0.3, 0.62, 0.32])),
+            glass: add(clear("glass", [0.78, 0.83, 0.82], 0.0)),
+            green_glass: add(clear("green glass", [0.3, 0.62, 0.32], 0.0)),
+            crystal: add(clear("crystal", [0.84, 0.87, 0.87], 0.12)),
             ceramic: add(polished("ceramic", [0.74, 0.72, 0.66], 0.05)),
             blue: add(polished("blue glaze", [0.1, 0.19, 0.42], 0.1)),
             red: add(polished("red enamel", [0.58, 0.06, 0.05], 0.12)),

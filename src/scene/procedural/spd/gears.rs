@@ -16,7 +16,7 @@ const TOOTH: [(f64, bool); 4] = [(-1.9, true), (1.9, true), (3.0, false), (7.0, 
 
 pub(in crate::scene::procedural) fn build(size: u32) -> Result<Scene> {
     let mut studio = studio("gears", &upright([-1.1, -2.1, 2.6], [0.0; 3]), &LIGHTS);
-    let ground = studio.material(surface("ground", [0.85, 0.7, 0.3], [0.6, 0.0, 1.0]));
+    let ground = studio.material(surface("ground", [1.0, 0.85, 0.7], [0.3, 0.6, 3.0827]));
     studio.add_input(level_square("ground", ground, 2.0, 0.0))?;
     for z in 0..size {
         for y in 0..size {

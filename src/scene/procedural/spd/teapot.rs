@@ -4,7 +4,7 @@
 mod patches;
 
 use self::patches::{Patch, patches};
-use super::{quadrangle, studio, surface, upright};
+use super::{studio, surface, upright};
 use crate::error::Result;
 use crate::scene::{ObjectInput, Scene, SmoothNormals};
 use glam::{DVec3, Vec3};
@@ -12,11 +12,9 @@ use glam::{DVec3, Vec3};
 pub(in crate::scene::procedural) fn build(size: u32) -> Result<Scene> {
     let view = upright([4.86, 7.2, 5.4], [0.0; 3]);
     let mut studio = studio("teapot", &view, &[[-3.1, 9.8, 12.1], [11.3, 5.1, 8.8]]);
-    for (name, grey, odd) in [("light squares", 1.0, 0), ("dark squares", 0.5, 1)] {
+    for (name, grey, odd) in [("light squares", 1.0, 1), ("dark squares", 0.5, 0)] {
         let material = studio.material(surface(name, [grey; 3], [0.5, 0.5, 4.81884]));
-        if let Some(squares) = squares(name, size, odd) {
-            studio.add_input(ObjectInput { material, ..squares })?;
-        }
+        studio.add_input(ObjectInput { material, ..squares(name, size, odd) })?;
     }
     let copper = studio.material(surface("teapot", [1.0, 0.5, 0.1], [0.75, 0.25, 3.0827]));
     for (name, patches) in patches() {
@@ -27,22 +25,21 @@ pub(in crate::scene::procedural) fn build(size: u32) -> Result<Scene> {
     Ok(studio.finish())
 }
 
-/// Every other square of the ground; none if there is one square and it is of the other colour.
-fn squares(name: &str, size: u32, odd: u32) -> Option<ObjectInput> {
+/// Every other square of the ground.
+fn squares(name: &str, size: u32, odd: u32) -> ObjectInput {
     let edge = |number: u32| (-4.0 + 8.0 * f64::from(number) / f64::from(size)) as f32;
-    let places = (0..size).flat_map(|x| (0..size).map(move |y| [x, y]));
-    let squares = places.filter(|[x, y]| (x + y) % 2 == odd).map(|[x, y]| {
-        let (low, high) = ([edge(x), edge(y)], [edge(x + 1), edge(y + 1)]);
-        let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
-        quadrangle(name, 0, corners.map(|[x, y]| [x, y, 0.0]))
-    });
-    squares.reduce(|mut all, square| {
-        let base = all.positions.len() as u32;
-        all.positions.extend(square.positions);
-        all.triangles.extend(square.triangles.iter().map(|triangle| triangle.map(|corner| base + corner)));
-        all.polygons = all.polygons.map(|polygons| polygons + 1);
-        all
-    })
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for (x, y) in (0..size).flat_map(|x| (0..size).map(move |y| (x, y))) {
+        if (x + y) % 2 == odd {
+            let base = positions.len() as u32;
+            for (x, y) in [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] {
+                positions.push(Vec3::new(edge(x), edge(y), 0.0));
+            }
+            triangles.extend([[0, 1, 2], [0, 2, 3]].map(|triangle| triangle.map(|corner| base + corner)));
+        }
+    }
+    let polygons = Some(triangles.len() as u32 / 2);
+    ObjectInput { polygons, ..ObjectInput::new(name, positions, triangles) }
 }
 
 /// A part of the teapot in the making.
