@@ -89,7 +89,7 @@ fn what_there_is_not_is_refused_and_nothing_is_written() {
     lightbuffer(["reproduce", "somebody-else", "-o", out.to_str().unwrap()]).misused("haines-greenberg");
     reproduce(&out, &["--environments", "chess"]).misused("house-of-cards");
     reproduce(&out, &["--largest-resolution", "5000"]).misused("4096");
-    reproduce(&out, &["--repetitions", "0"]).misused("1..=100");
+    reproduce(&out, &["--truth-samples", "few"]).misused("--truth-samples");
     assert!(!out.exists());
 }
 

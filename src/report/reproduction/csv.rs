@@ -32,6 +32,7 @@ fn captions(text: &mut String, environment: &Environment) {
     }
     let (ours, paper) = (environment.average_tree_size, environment.paper_average_tree_size);
     let _ = writeln!(text, "{start},average_tree_size,,{ours},{paper},no");
+    let _ = writeln!(text, "{start},triangles,,{},,", environment.triangles);
     let _ = writeln!(text, "{start},queries,,{},,", environment.queries);
 }
 

@@ -42,6 +42,8 @@ pub struct Environment {
     pub height: u32,
     /// What the scene holds.
     pub counts: Counts,
+    /// Triangles that its polygons were cut into.
+    pub triangles: u32,
     /// What the paper says that it holds.
     pub paper_counts: Counts,
     /// Intersections a ray from the eye.
@@ -216,6 +218,7 @@ impl Environment {
             width: measured.size.width,
             height: measured.size.height,
             counts: Counts::of(scene),
+            triangles: scene.triangles.len() as u32,
             paper_counts: Counts::printed(table),
             average_tree_size: measured.trees.average_tree(),
             paper_average_tree_size: table.average_tree_size,

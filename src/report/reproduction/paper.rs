@@ -254,12 +254,13 @@ mod tests {
 
     #[test]
     fn items_follow_from_items_per_square() {
+        // Some are rounded there, some cut off, such as 9443 / 3000 = 3.147 to 3.14.
         for table in TABLES {
             let lights = f64::from(table.counts[5]);
             for (column, resolution) in RESOLUTIONS.into_iter().enumerate() {
                 let squares = 6.0 * f64::from(resolution).powi(2) * lights;
                 let (items, each) = (table.items.buffers[column], table.items_per_square.buffers[column]);
-                assert!((items - each * squares).abs() <= 0.0051 * squares, "{} {resolution}", table.name);
+                assert!((items - each * squares).abs() < 0.01 * squares, "{} {resolution}", table.name);
             }
         }
     }

@@ -79,6 +79,7 @@ fn draw_panel(area: &DrawingArea<SVGBackend, Shift>, panel: &Panel, x: Range<f64
         .x_desc("cells along an edge, R")
         .x_label_formatter(&|x| label(*x))
         .y_label_formatter(&|y| label(*y))
+        .max_light_lines(3)
         .light_line_style(RGBColor(238, 238, 238))
         .bold_line_style(RGBColor(214, 214, 214))
         .label_style(("sans-serif", 13))

@@ -11,9 +11,9 @@ use std::fmt::Write;
 const NOTES: &str = "\
 Each column: measured here | printed in the paper; ? marks a best reading of damaged print.
 - Times are wall-clock seconds here, medians of a few interleaved repetitions, and minutes of a VAX 11/780 there.
-- A polygon is cut into triangles here, and each of them is one to test and one to list: a test of a quadrilateral
-  counts as two, for the control and for the light buffers alike. Volumes that are tested are not counted, as in the
-  paper.
+- A polygon of n corners is n - 2 triangles here, and each of them is one to test and one to list: a test of a
+  quadrilateral counts as two, for the control and for the light buffers alike. The captions say how many triangles a
+  polygon has. Volumes that are tested are not counted, as in the paper.
 - List items are all that a list holds: records of opaque and of transparent surfaces, bounding-volume records and
   full-occlusion records. A square is non-empty if its list holds a surface.
 - Light buffers cull the far sides of closed solids, put more than six triangles of an object in a square behind a
@@ -46,6 +46,9 @@ fn caption(text: &mut String, environment: &Environment) {
         environment.figure, environment.title, environment.name, environment.width, environment.height
     );
     let _ = writeln!(text, "  here:  {}", contents(environment.counts, environment.average_tree_size));
+    let a_polygon = f64::from(environment.triangles) / f64::from(environment.counts.polygons.max(1));
+    let triangles = grouped(u64::from(environment.triangles));
+    let _ = writeln!(text, "         {triangles} triangles, {a_polygon:.2} a polygon");
     let _ = writeln!(
         text,
         "  paper: {}",
