@@ -1,6 +1,7 @@
 //! Whole numbers times powers of two: sums and products of floats of any size, exactly.
 
 use super::Sign;
+use super::expansion::Expansion;
 use dashu_int::IBig;
 use std::cmp::Ordering;
 
@@ -24,6 +25,12 @@ impl Dyadic {
         let mantissa = IBig::from(mantissa >> zeros);
         let mantissa = if value.is_sign_negative() { -mantissa } else { mantissa };
         Dyadic { mantissa, exponent: exponent + i64::from(zeros) }
+    }
+
+    /// An expansion, exactly.
+    pub fn from_expansion(value: &Expansion) -> Dyadic {
+        let components = value.components().iter();
+        components.fold(Dyadic::zero(), |sum, &component| sum.plus(&Dyadic::from_f64(component)))
     }
 
     /// A whole number.

@@ -41,9 +41,7 @@ impl ExactNumber {
 
     pub(crate) fn to_surd(&self) -> Surd {
         match self {
-            ExactNumber::Expansion(x) => Surd::rational(
-                x.components().iter().fold(Dyadic::zero(), |sum, &c| sum.plus(&Dyadic::from_f64(c))),
-            ),
+            ExactNumber::Expansion(x) => Surd::rational(Dyadic::from_expansion(x)),
             ExactNumber::Surd(x) => x.clone(),
         }
     }

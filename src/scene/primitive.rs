@@ -51,6 +51,14 @@ impl Scene {
         Some(&self.curved[curved].shape)
     }
 
+    /// A box along the axes around a primitive; `None` for a plane without end.
+    pub fn primitive_bounds(&self, primitive: PrimitiveIndex) -> Option<(Vec3, Vec3)> {
+        match self.primitive(primitive) {
+            Primitive::Triangle([a, b, c]) => Some((a.min(b).min(c), a.max(b).max(c))),
+            Primitive::Curved(shape) => shape.bounds(),
+        }
+    }
+
     /// Index into [`Scene::objects`] of the object that a primitive belongs to.
     pub fn object_index(&self, primitive: PrimitiveIndex) -> u32 {
         match (primitive as usize).checked_sub(self.triangles.len()) {

@@ -1,6 +1,6 @@
 //! Every primitive for every query: the classical tracer of the 2004 paper, with the native predicates.
 
-use super::precise::{self, crossings_of, is_there};
+use super::precise::{self, crossed_among, is_there};
 use super::{Basis, BuildInput, Casters, Counters, Crossings, SceneIndex, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::LightPoint;
@@ -117,13 +117,8 @@ impl ShadowTester for BruteForce<'_> {
         let mut counters = Counters::default();
         for point in points {
             let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
-            let mut crossed = Vec::new();
-            for &primitive in &self.index.transparent {
-                let base = point.primitive();
-                let times = crossings_of(self.scene, primitive, base, &query, &mut counters);
-                crossed.extend((0..times).map(|_| primitive));
-            }
-            crossings.push(crossed);
+            let all = self.index.transparent.iter().copied();
+            crossings.push(crossed_among(self.scene, all, point.primitive(), &query, &mut counters));
         }
         Ok(counters)
     }

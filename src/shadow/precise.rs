@@ -51,6 +51,22 @@ pub fn crossings_of<F: Fn() -> ExactPosition>(
     crossings
 }
 
+/// The transparent primitives among some that the segment of a point crosses, each as often as it does.
+pub fn crossed_among<F: Fn() -> ExactPosition>(
+    scene: &Scene,
+    primitives: impl IntoIterator<Item = PrimitiveIndex>,
+    base: Option<PrimitiveIndex>,
+    query: &PreciseQuery<F>,
+    counters: &mut Counters,
+) -> Vec<PrimitiveIndex> {
+    let mut crossed = Vec::new();
+    for primitive in primitives {
+        let times = crossings_of(scene, primitive, base, query, counters);
+        crossed.extend((0..times).map(|_| primitive));
+    }
+    crossed
+}
+
 /// Whether a point lies on a primitive.
 fn own_or_other(primitive: PrimitiveIndex, base: Option<PrimitiveIndex>) -> Base {
     if base == Some(primitive) { Base::Own } else { Base::Other }

@@ -3,7 +3,7 @@
 use super::Solids;
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
-use crate::scene::{Primitive, PrimitiveIndex, Scene};
+use crate::scene::{PrimitiveIndex, Scene};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -69,12 +69,8 @@ impl SceneIndex {
 
 /// A box around primitives that have an end.
 fn bounds_of<'p>(scene: &Scene, primitives: impl Iterator<Item = &'p PrimitiveIndex>) -> (Vec3, Vec3) {
-    let ends = |&p: &PrimitiveIndex| match scene.primitive(p) {
-        Primitive::Triangle([a, b, c]) => Some((a.min(b).min(c), a.max(b).max(c))),
-        Primitive::Curved(shape) => shape.bounds(),
-    };
     let join = |(low, high): (Vec3, Vec3), (l, h): (Vec3, Vec3)| (low.min(l), high.max(h));
-    primitives.filter_map(ends).reduce(join).unwrap_or_default()
+    primitives.filter_map(|&p| scene.primitive_bounds(p)).reduce(join).unwrap_or_default()
 }
 
 /// The same for equal curved surfaces.

@@ -58,12 +58,8 @@ pub struct Hierarchy<'a> {
 impl<'a> Hierarchy<'a> {
     /// Builds the tree by halving along the longest axis of the centres.
     pub fn new(scene: &'a Scene) -> Hierarchy<'a> {
-        let bounds: Vec<Option<(Vec3, Vec3)>> = (0..scene.primitive_count())
-            .map(|p| match scene.primitive(p) {
-                Primitive::Triangle([a, b, c]) => Some((a.min(b).min(c), a.max(b).max(c))),
-                Primitive::Curved(shape) => shape.bounds(),
-            })
-            .collect();
+        let bounds: Vec<Option<(Vec3, Vec3)>> =
+            (0..scene.primitive_count()).map(|p| scene.primitive_bounds(p)).collect();
         let (mut order, endless): (Vec<u32>, Vec<u32>) =
             (0..scene.primitive_count()).partition(|&p| bounds[p as usize].is_some());
         let boxes: Vec<(Vec3, Vec3)> = bounds.into_iter().map(Option::unwrap_or_default).collect();

@@ -30,10 +30,10 @@ impl ExactParameter {
 
     /// A quotient of expansions with a positive denominator.
     pub(crate) fn quotient(numerator: &Expansion, denominator: &Expansion) -> ExactParameter {
-        let sum = |x: &Expansion| {
-            x.components().iter().fold(Dyadic::zero(), |sum, &c| sum.plus(&Dyadic::from_f64(c)))
-        };
-        ExactParameter { numerator: Surd::rational(sum(numerator)), denominator: sum(denominator) }
+        ExactParameter {
+            numerator: Surd::rational(Dyadic::from_expansion(numerator)),
+            denominator: Dyadic::from_expansion(denominator),
+        }
     }
 
     /// The order of two places on one line.

@@ -114,6 +114,11 @@ impl Shape {
         super::defect::of(self)
     }
 
+    /// Whether it is a plane without end, which no box holds.
+    pub fn is_endless(&self) -> bool {
+        matches!(self, Shape::Plane(_))
+    }
+
     /// The name of the kind.
     pub fn kind(&self) -> &'static str {
         match self {

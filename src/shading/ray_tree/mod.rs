@@ -9,7 +9,7 @@ mod spawn;
 pub use branch::{reflected, refracted};
 pub use spawn::{Branch, Kind, branches};
 
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use crate::visibility::hierarchy::{FirstHit, Hierarchy, Ray};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
 use rayon::prelude::*;
@@ -74,10 +74,7 @@ impl RayForest {
             TreeStatistics { eye_rays, eye_hits: hits as u64, depth: 1, ..TreeStatistics::default() };
         let mut forest =
             RayForest { weights: vec![[1.0; 3]; hits], nodes: seen, sky: Vec::new(), statistics };
-        let branches = |material: &crate::scene::Material| {
-            material.mirror != [0.0; 3] || material.transmission.is_some()
-        };
-        if scene.materials.iter().any(branches) {
+        if scene.materials.iter().any(Material::sends_rays) {
             let hierarchy = Hierarchy::new(scene);
             let mut first = 0;
             for _ in 1..depth {

@@ -76,7 +76,7 @@ impl Hit {
 pub fn branches(scene: &Scene, point: &SurfacePoint) -> Vec<Branch> {
     let Some(hit) = Hit::of(point) else { return Vec::new() };
     let material = scene.material(hit.primitive);
-    if material.mirror == [0.0; 3] && material.transmission.is_none() {
+    if !material.sends_rays() {
         return Vec::new();
     }
     let direction = hit.direction.as_dvec3().normalize();

@@ -7,7 +7,7 @@
 mod hierarchy;
 
 use super::brute_force::{Batch, BruteForce};
-use super::precise::crossings_of;
+use super::precise::crossed_among;
 use super::{Basis, BuildInput, Counters, Crossings, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::batch::{InstructionSet, LANES};
@@ -59,7 +59,7 @@ pub(super) fn cast_objects(scene: &Scene, primitives: &[PrimitiveIndex]) -> Vec<
 
 /// Whether no volume holds a primitive.
 pub(super) fn is_endless(scene: &Scene, primitive: PrimitiveIndex) -> bool {
-    matches!(scene.shape(primitive), Some(Shape::Plane(_)))
+    scene.shape(primitive).is_some_and(Shape::is_endless)
 }
 
 /// Volumes around runs of casters, and clusters of them.
@@ -187,13 +187,8 @@ impl ShadowTester for BoundingVolumes<'_> {
         for point in points {
             let query = PreciseQuery::new(space, point.position, || point.exact(self.scene));
             let segment = LightSegment::new(space, point.position);
-            let mut crossed = Vec::new();
-            for primitive in self.transparent_near(&segment, &mut counters) {
-                let base = point.primitive();
-                let times = crossings_of(self.scene, primitive, base, &query, &mut counters);
-                crossed.extend((0..times).map(|_| primitive));
-            }
-            crossings.push(crossed);
+            let near = self.transparent_near(&segment, &mut counters);
+            crossings.push(crossed_among(self.scene, near, point.primitive(), &query, &mut counters));
         }
         Ok(counters)
     }

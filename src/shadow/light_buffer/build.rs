@@ -12,7 +12,6 @@ use super::curved_cast;
 use super::groups::{CellGroups, Group, Grouping};
 use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
-use crate::geometry::curved::Shape;
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::planes::{OrientedPlanes, oriented};
 use crate::scene::{Primitive, PrimitiveIndex};
@@ -155,7 +154,7 @@ enum Curved {
 /// Where queries come from: a plane without end is a receiver that no cell's list holds, so that nothing may
 /// be left out on its account.
 fn receivers(input: &BuildInput) -> Receivers {
-    let endless = input.scene.curved.iter().any(|curved| matches!(curved.shape, Shape::Plane(_)));
+    let endless = input.scene.curved.iter().any(|curved| curved.shape.is_endless());
     if endless { Receivers::Anywhere } else { input.receivers }
 }
 

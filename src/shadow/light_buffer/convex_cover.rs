@@ -61,21 +61,35 @@ impl ConvexObjects {
         if self.objects.is_empty() || candidates.len() < 2 {
             return f32::INFINITY;
         }
-        let mut members: Vec<(u32, usize)> = candidates
+        let members: Vec<(u32, usize)> = candidates
             .iter()
             .enumerate()
             .filter(|(_, c)| c.cover == Cover::Part)
             .filter_map(|(k, c)| Some((self.objects[c.role.caster()? as usize]?, k)))
             .collect();
-        members.sort_unstable();
-        members
-            .chunk_by(|a, b| a.0 == b.0)
-            .filter(|object| object.len() > 1)
-            .filter(|object| {
-                let inside = |x: f64, y: f64| object.iter().any(|&(_, k)| footprint(k).contains(x, y));
-                grid.corners(column, row).iter().all(|&[x, y]| inside(x, y))
-            })
-            .map(|object| object.iter().map(|&(_, k)| candidates[k].far).fold(f32::NEG_INFINITY, f32::max))
-            .fold(f32::INFINITY, f32::min)
+        covered_depth(candidates, members, footprint, grid, column, row)
     }
+}
+
+/// The least depth behind which one of several convex shapes darkens the whole cell, or infinity. `members` are
+/// candidates that are parts of shapes, each with the number of its shape: a projection holds the cell if it holds
+/// its corners.
+pub(super) fn covered_depth<'a>(
+    candidates: &[Candidate],
+    mut members: Vec<(u32, usize)>,
+    footprint: impl Fn(usize) -> &'a Footprint,
+    grid: &Grid,
+    column: u32,
+    row: u32,
+) -> f32 {
+    members.sort_unstable();
+    members
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|shape| shape.len() > 1)
+        .filter(|shape| {
+            let inside = |x: f64, y: f64| shape.iter().any(|&(_, k)| footprint(k).contains(x, y));
+            grid.corners(column, row).iter().all(|&[x, y]| inside(x, y))
+        })
+        .map(|shape| shape.iter().map(|&(_, k)| candidates[k].far).fold(f32::NEG_INFINITY, f32::max))
+        .fold(f32::INFINITY, f32::min)
 }

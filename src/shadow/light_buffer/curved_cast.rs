@@ -3,6 +3,7 @@
 
 use super::build::{Part, StandsFor};
 use super::cell::{Candidate, Cover, Role};
+use super::convex_cover::covered_depth;
 use crate::geometry::curved::{Shape, hull, inner};
 use crate::geometry::footprint::{Footprint, Grid};
 use crate::geometry::{LightPosition, Sign};
@@ -52,7 +53,7 @@ pub(super) fn cover_depth<'a>(
     column: u32,
     row: u32,
 ) -> f32 {
-    let mut members: Vec<(u32, usize)> = candidates
+    let members: Vec<(u32, usize)> = candidates
         .iter()
         .enumerate()
         .filter_map(|(k, candidate)| match candidate.role {
@@ -60,15 +61,7 @@ pub(super) fn cover_depth<'a>(
             Role::Blocks(_) | Role::ReceivesOnly => None,
         })
         .collect();
-    members.sort_unstable();
-    members
-        .chunk_by(|a, b| a.0 == b.0)
-        .filter(|polygon| {
-            let inside = |x: f64, y: f64| polygon.iter().any(|&(_, k)| footprint(k).contains(x, y));
-            grid.corners(column, row).iter().all(|&[x, y]| inside(x, y))
-        })
-        .map(|polygon| polygon.iter().map(|&(_, k)| candidates[k].far).fold(f32::NEG_INFINITY, f32::max))
-        .fold(f32::INFINITY, f32::min)
+    covered_depth(candidates, members, footprint, grid, column, row)
 }
 
 /// Makes one candidate of all triangles of a hull, and leaves out the polygons that have done their part.

@@ -9,7 +9,7 @@ use super::{Casters, SideLists, build, corners, endless};
 use crate::error::Result;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::{PrimitiveIndex, Scene};
-use crate::shadow::precise::crossings_of;
+use crate::shadow::precise::crossed_among;
 use crate::shadow::{BuildInput, Counters, Receivers, VolumeThreshold};
 use crate::visibility::SurfacePoint;
 
@@ -49,28 +49,18 @@ impl TransparentLists {
     ) -> Vec<PrimitiveIndex> {
         let space = &self.casters.space;
         let query = PreciseQuery::new(space, point.position, || point.exact(scene));
-        let mut crossed = Vec::new();
-        let mut test = |caster: u32, counters: &mut Counters| {
-            let primitive = self.casters.primitives[caster as usize];
-            let times = crossings_of(scene, primitive, point.primitive(), &query, counters);
-            crossed.extend((0..times).map(|_| primitive));
-        };
-        for &caster in &self.endless {
-            test(caster, counters);
-        }
+        let mut casters = self.endless.clone();
         if let Some((at, exactly)) = self.cells.locate(space, point.position, self.resolution, &query) {
             counters.cells += 1;
             counters.exact += u64::from(exactly);
             let lists = self.sides[at.side].as_ref();
             let list = lists.and_then(|lists| Some(lists.list(lists.cell(at.column, at.row)?).1));
-            for record in list.unwrap_or_default() {
-                if f64::from(record.near) >= at.z_high {
-                    break;
-                }
-                test(record.caster, counters);
-            }
+            let list = list.unwrap_or_default().iter();
+            let before = list.take_while(|record| f64::from(record.near) < at.z_high);
+            casters.extend(before.map(|record| record.caster));
         }
-        crossed
+        let primitives = casters.into_iter().map(|caster| self.casters.primitives[caster as usize]);
+        crossed_among(scene, primitives, point.primitive(), &query, counters)
     }
 
     /// Records in all lists.
