@@ -110,6 +110,11 @@ impl LightTriangle {
             Filtered::Undecided
         }
     }
+
+    /// Whether the ray through a point certainly passes through the inside of the triangle.
+    pub fn certainly_holds(&self, p: &LightPoint) -> bool {
+        self.values(p)[..3].iter().all(|&v| v > p.slack)
+    }
 }
 
 #[cfg(test)]

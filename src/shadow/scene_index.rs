@@ -31,7 +31,7 @@ impl SceneIndex {
         let mut seen = HashSet::with_capacity(scene.triangles.len());
         let casting: Vec<_> = (0..scene.triangles.len() as u32)
             .filter(|&t| {
-                let mut is_new = || scene.masked(t).is_some() || seen.insert(key(scene, t));
+                let mut is_new = || scene.masked(t).is_some() || seen.insert(duplicate_key(scene, t));
                 scene.object(t).shadowing.casts && !scene.is_transparent(t) && is_new()
             })
             .collect();
@@ -80,7 +80,7 @@ fn numbers(scene: &Scene, curved: PrimitiveIndex) -> Vec<u32> {
 }
 
 /// The same for triangles with the same three corners in any order.
-fn key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
+pub(super) fn duplicate_key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
     // Adding zero makes both zeros one.
     let mut corners = scene.corners(triangle).map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
     corners.sort_unstable();

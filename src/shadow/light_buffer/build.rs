@@ -9,6 +9,7 @@ use super::cells::{Cells, side_grid};
 use super::convex_cover::ConvexObjects;
 use super::cube_coherence::SideBits;
 use super::curved_cast;
+use super::flatness::Flatness;
 use super::groups::{CellGroups, Group, Grouping};
 use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
@@ -112,6 +113,7 @@ pub(super) fn build_on(
     let curved = parts.iter().any(|(_, part)| part.stands_for != StandsFor::Itself);
     let grid = side_grid(resolution);
     let rules = Rules {
+        flatness: Flatness { scene: input.scene, casters },
         convex: ConvexObjects::new(input, casters),
         grouping: Grouping::new(input, casters),
         curved: if curved { Curved::Some } else { Curved::None },
@@ -138,7 +140,8 @@ pub(super) fn build_on(
 }
 
 /// What the lists of all sides are made by.
-struct Rules {
+struct Rules<'a> {
+    flatness: Flatness<'a>,
     convex: ConvexObjects,
     grouping: Option<Grouping>,
     curved: Curved,
@@ -250,7 +253,7 @@ fn fill_band(
     window: &Window,
     rows: [u32; 2],
     receivers: Receivers,
-    rules: &Rules,
+    rules: &Rules<'_>,
 ) -> Band {
     let width = window.width();
     let cells = width * (rows[1] - rows[0] + 1) as usize;
@@ -292,7 +295,8 @@ fn fill_band(
                 curved_cast::join(&mut candidates);
             }
             let touching = candidates.iter().filter(|c| c.role.caster().is_some()).count();
-            let finished = cell::finish(&mut candidates, cover, receivers);
+            let in_one_plane = |candidates: &[Candidate]| rules.flatness.in_one_plane(candidates);
+            let finished = cell::finish(&mut candidates, cover, receivers, in_one_plane);
             let start = band.records.len();
             band.headers.push(Header { start: start as u32, full_occlusion: finished.full_occlusion });
             let record = |c: &Candidate| Some(Record { near: c.near, caster: c.role.caster()? });

@@ -76,7 +76,7 @@ pub enum Dropped {
     Nothing,
     /// A full-occlusion depth with nothing behind it (row 10).
     FullOcclusion,
-    /// The only polygon of the cell: nothing else can receive its shadow (row 11).
+    /// All that the cell holds lies in one plane: nothing else can receive its shadow (row 11).
     List,
 }
 
@@ -85,8 +85,14 @@ pub enum Dropped {
 ///
 /// Behind a cover everything is dark, so a record whose nearest depth lies behind can go: what it blocks is
 /// deeper still. A record exactly at that depth stays. What only receives decides with the others whether a
-/// record is of use to anybody, and then goes.
-pub fn finish(candidates: &mut Vec<Candidate>, cover_depth: f32, receivers: Receivers) -> Finished {
+/// record is of use to anybody, and then goes. `in_one_plane` tells whether casters lie in one plane: the paper's
+/// polygon is several triangles here.
+pub fn finish(
+    candidates: &mut Vec<Candidate>,
+    cover_depth: f32,
+    receivers: Receivers,
+    in_one_plane: impl Fn(&[Candidate]) -> bool,
+) -> Finished {
     candidates.sort_unstable_by(|a, b| a.near.total_cmp(&b.near).then(a.role.cmp(&b.role)));
     let kept = candidates.partition_point(|c| c.near <= cover_depth);
     let blocks = |candidate: &Candidate| candidate.role != Role::ReceivesOnly;
@@ -95,8 +101,14 @@ pub fn finish(candidates: &mut Vec<Candidate>, cover_depth: f32, receivers: Rece
     candidates.truncate(kept);
     let mut finished = Finished { full_occlusion: cover_depth, pruned, dropped: Dropped::Nothing };
     if receivers == Receivers::Surfaces && is_nothing_behind {
-        // Every receiver is on one of the candidates. Alone, a triangle shadows nothing in its own plane.
-        if candidates.len() == 1 && blocks(&candidates[0]) && candidates[0].self_shadow == SelfShadow::Never {
+        // Every receiver is on one of the candidates. A triangle shadows nothing in its own plane.
+        let is_flat = |c: &Candidate| blocks(c) && c.self_shadow == SelfShadow::Never;
+        let is_alone = match &candidates[..] {
+            [] => false,
+            [alone] => is_flat(alone),
+            several => several.iter().all(is_flat) && in_one_plane(several),
+        };
+        if is_alone {
             candidates.clear();
             finished.full_occlusion = f32::INFINITY;
             finished.dropped = Dropped::List;
@@ -122,6 +134,11 @@ mod tests {
         Candidate { role: Role::ReceivesOnly, ..candidate(near, far, 0) }
     }
 
+    /// No two candidates lie in one plane.
+    fn apart(_: &[Candidate]) -> bool {
+        false
+    }
+
     fn casters(candidates: &[Candidate]) -> Vec<u32> {
         candidates.iter().map(|c| c.role.caster().expect("only casters are kept")).collect()
     }
@@ -129,7 +146,7 @@ mod tests {
     #[test]
     fn records_are_sorted_by_depth_then_by_caster() {
         let mut list = vec![candidate(2.0, 3.0, 0), candidate(1.0, 9.0, 7), candidate(1.0, 2.0, 3)];
-        finish(&mut list, f32::INFINITY, Receivers::Surfaces);
+        finish(&mut list, f32::INFINITY, Receivers::Surfaces, apart);
         assert_eq!(casters(&list), [3, 7, 0]);
     }
 
@@ -137,7 +154,7 @@ mod tests {
     fn what_lies_behind_a_cover_is_cut_off_and_what_begins_on_it_stays() {
         let mut list =
             vec![candidate(1.0, 2.0, 0), candidate(2.0, 5.0, 1), candidate(2.0f32.next_up(), 5.0, 2)];
-        let finished = finish(&mut list, 2.0, Receivers::Surfaces);
+        let finished = finish(&mut list, 2.0, Receivers::Surfaces, apart);
         assert_eq!(casters(&list), [0, 1]);
         assert_eq!(finished, Finished { full_occlusion: 2.0, pruned: 1, dropped: Dropped::Nothing });
     }
@@ -145,41 +162,55 @@ mod tests {
     #[test]
     fn a_cover_with_nothing_behind_it_is_dropped_for_surfaces_only() {
         let list = vec![candidate(1.0, 2.0, 0), candidate(1.5, 2.0, 1)];
-        let finished = finish(&mut list.clone(), 2.0, Receivers::Surfaces);
+        let finished = finish(&mut list.clone(), 2.0, Receivers::Surfaces, apart);
         assert_eq!((finished.full_occlusion, finished.dropped), (f32::INFINITY, Dropped::FullOcclusion));
-        assert_eq!(finish(&mut list.clone(), 2.0, Receivers::Anywhere).full_occlusion, 2.0);
+        assert_eq!(finish(&mut list.clone(), 2.0, Receivers::Anywhere, apart).full_occlusion, 2.0);
     }
 
     #[test]
     fn a_lone_polygon_is_dropped_unless_something_was_cut_off_behind_it() {
         let mut alone = vec![candidate(1.0, 2.0, 0)];
-        assert_eq!(finish(&mut alone, 2.0, Receivers::Surfaces).dropped, Dropped::List);
+        assert_eq!(finish(&mut alone, 2.0, Receivers::Surfaces, apart).dropped, Dropped::List);
         assert!(alone.is_empty());
         let mut shadowing = vec![candidate(1.0, 2.0, 0), candidate(3.0, 4.0, 1)];
-        finish(&mut shadowing, 2.0, Receivers::Surfaces);
+        finish(&mut shadowing, 2.0, Receivers::Surfaces, apart);
         assert_eq!(casters(&shadowing), [0]);
         let mut anywhere = vec![candidate(1.0, 2.0, 0)];
-        finish(&mut anywhere, f32::INFINITY, Receivers::Anywhere);
+        finish(&mut anywhere, f32::INFINITY, Receivers::Anywhere, apart);
         assert_eq!(casters(&anywhere), [0]);
+    }
+
+    #[test]
+    fn polygons_in_one_plane_are_dropped_as_one() {
+        let pair = vec![candidate(1.0, 2.0, 0), candidate(1.0, 2.0, 1)];
+        let finished = finish(&mut pair.clone(), 2.0, Receivers::Surfaces, |_| true);
+        assert_eq!((finished.dropped, finished.full_occlusion), (Dropped::List, f32::INFINITY));
+        let mut before = [&pair[..], &[receiver(3.0, 4.0)]].concat();
+        finish(&mut before, f32::INFINITY, Receivers::Surfaces, |_| true);
+        assert_eq!(casters(&before), [0, 1]);
+        let mut curved = pair;
+        curved[1].self_shadow = SelfShadow::Perhaps;
+        finish(&mut curved, f32::INFINITY, Receivers::Surfaces, |_| true);
+        assert_eq!(casters(&curved), [0, 1]);
     }
 
     #[test]
     fn what_only_receives_keeps_what_can_shadow_it_and_has_no_record() {
         let mut under_one = vec![receiver(3.0, 4.0), candidate(1.0, 2.0, 0)];
-        let finished = finish(&mut under_one, f32::INFINITY, Receivers::Surfaces);
+        let finished = finish(&mut under_one, f32::INFINITY, Receivers::Surfaces, apart);
         assert_eq!((casters(&under_one), finished.dropped), (vec![0], Dropped::Nothing));
         // Behind a cover, or reaching behind it: the full occlusion is of use.
         for behind in [receiver(2.5, 4.0), receiver(1.5, 2.5)] {
             let mut list = vec![candidate(1.0, 2.0, 0), candidate(1.5, 2.0, 1), behind];
-            let finished = finish(&mut list, 2.0, Receivers::Surfaces);
+            let finished = finish(&mut list, 2.0, Receivers::Surfaces, apart);
             assert_eq!(casters(&list), [0, 1]);
             assert_eq!(finished, Finished { full_occlusion: 2.0, pruned: 0, dropped: Dropped::Nothing });
         }
         let mut before = vec![candidate(1.0, 2.0, 0), candidate(1.5, 2.0, 1), receiver(1.0, 2.0)];
-        assert_eq!(finish(&mut before, 2.0, Receivers::Surfaces).dropped, Dropped::FullOcclusion);
+        assert_eq!(finish(&mut before, 2.0, Receivers::Surfaces, apart).dropped, Dropped::FullOcclusion);
         assert_eq!(casters(&before), [0, 1]);
         let mut alone = vec![receiver(1.0, 2.0)];
-        assert_eq!(finish(&mut alone, f32::INFINITY, Receivers::Surfaces).dropped, Dropped::Nothing);
+        assert_eq!(finish(&mut alone, f32::INFINITY, Receivers::Surfaces, apart).dropped, Dropped::Nothing);
         assert!(alone.is_empty());
     }
 }

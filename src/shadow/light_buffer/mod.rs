@@ -13,7 +13,9 @@ mod convex_cover;
 mod convex_self;
 pub mod cube;
 mod cube_coherence;
+mod culled_receivers;
 mod curved_cast;
+mod flatness;
 mod groups;
 mod occupancy;
 mod roles;
@@ -39,6 +41,7 @@ use crate::shadow::bounding_volumes::is_endless;
 use crate::visibility::SurfacePoint;
 use cells::Cells;
 use convex_self::HarmlessObjects;
+use culled_receivers::CulledReceivers;
 use glam::Vec3;
 use groups::{CellGroups, Group};
 use roles::Roles;
@@ -145,6 +148,8 @@ pub struct LightBuffer<'a> {
     receivers: Receivers,
     casters: Casters,
     harmless: HarmlessObjects,
+    /// What was culled, if something was.
+    culled: Option<CulledReceivers>,
     coherence: ObjectCoherence,
     /// Casters without end, which no cell lists: all of them may block any point.
     endless: Vec<u32>,
@@ -180,13 +185,14 @@ impl<'a> LightBuffer<'a> {
         input.memory.check(format!("a light buffer of {resolution} cells along an edge"), headers)?;
         let volumes = groups::object_volumes(input, &casters);
         let (sides, statistics) = build::build(input, &casters, &roles.receiving_only, &cells, resolution)?;
-        let statistics = Statistics { culled: roles.culled, ..statistics };
+        let statistics = Statistics { culled: roles.culled.len() as u64, ..statistics };
         let endless = endless(input.scene, &casters);
         Ok(LightBuffer {
             scene: input.scene,
             receivers: input.receivers,
             casters,
             harmless: HarmlessObjects::new(input),
+            culled: CulledReceivers::new(input.scene, &roles.culled),
             coherence: input.object_coherence,
             endless,
             transparent: TransparentLists::new(input, resolution)?,
@@ -248,6 +254,9 @@ impl<'a> LightBuffer<'a> {
         counters: &mut Counters,
     ) -> bool {
         let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
+        if self.culled.as_ref().is_some_and(|culled| culled.hold(point)) {
+            return self.is_culled_point_occluded(point, &query, counters);
+        }
         let Some(last) = last else { return self.occluder(point, &query, counters) != Occluder::Nothing };
         if let Some(caster) = *last
             && self.blocks(caster, &self.asked(point, &query), counters)
@@ -319,6 +328,7 @@ impl ShadowTester for LightBuffer<'_> {
     fn bytes(&self) -> usize {
         self.casters.bytes()
             + self.harmless.bytes()
+            + self.culled.as_ref().map_or(0, CulledReceivers::bytes)
             + self.transparent.as_ref().map_or(0, TransparentLists::bytes)
             + self.volumes.len() * size_of::<Option<Volume>>()
             + self.sides.iter().flatten().map(SideLists::bytes).sum::<usize>()

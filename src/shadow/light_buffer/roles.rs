@@ -9,11 +9,12 @@ use std::borrow::Cow;
 pub(super) struct Roles<'a> {
     /// Triangles that are cast.
     pub casting: Cow<'a, [PrimitiveIndex]>,
-    /// Primitives that are not, but that may be asked about, transparent ones among them: the simplifications of a cell's list hold only if
-    /// these are seen too. Empty if nothing is simplified.
+    /// Primitives that never block, but that may be asked about: the simplifications of a cell's list hold only
+    /// if these are seen too. Empty if nothing is simplified.
     pub receiving_only: Vec<PrimitiveIndex>,
-    /// Triangles that would be cast, were they not the far sides of solids.
-    pub culled: u64,
+    /// What would be cast, were it not on the far sides of solids. Points on it are not answered by lists, so
+    /// that it is no receiver in their sense.
+    pub culled: Vec<PrimitiveIndex>,
 }
 
 impl<'a> Roles<'a> {
@@ -42,10 +43,10 @@ impl<'a> Roles<'a> {
                     (object.first..object.first + object.count).chain(curved..curved + object.curved_count)
                 });
                 let may_be_asked = |&primitive: &PrimitiveIndex| scene.object(primitive).shadowing.receives;
-                primitives.chain(culled.iter().copied()).filter(may_be_asked).collect()
+                primitives.filter(may_be_asked).collect()
             }
             Receivers::Anywhere => Vec::new(),
         };
-        Roles { casting, receiving_only, culled: culled.len() as u64 }
+        Roles { casting, receiving_only, culled }
     }
 }

@@ -34,6 +34,13 @@ enum Walk {
     Through,
 }
 
+impl<F> Asked<'_, F> {
+    /// The point relative to the light.
+    pub(super) fn relative(&self) -> &LightPoint {
+        &self.relative
+    }
+}
+
 impl LightBuffer<'_> {
     /// Makes a query ready.
     pub(super) fn asked<'q, F>(&self, point: &SurfacePoint, precise: &'q PreciseQuery<F>) -> Asked<'q, F> {
