@@ -30,7 +30,10 @@ pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> R
 
 fn arriving(view: &View, seen: &Seen, queries: &Queries, run: &TesterRun) -> Vec<[f32; 3]> {
     let points = seen.forest.nodes.points.len();
-    queries.arriving(&view.scene, points, &run.occluded, run.crossings.as_ref())
+    match &run.soft_light {
+        Some(soft) => queries.arriving_by(&view.scene, points, |query| soft[query]),
+        None => queries.arriving(&view.scene, points, &run.occluded, run.crossings.as_ref()),
+    }
 }
 
 /// The run of one tester at every light.

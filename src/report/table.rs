@@ -1,6 +1,6 @@
 //! Verdict tables for people.
 
-use super::validation::{TesterReport, Totals, Validation, WrongPixel};
+use super::validation::{TesterReport, Totals, Validation, WhySkipped, WrongPixel};
 use crate::film::grouped;
 use crate::shading::TreeStatistics;
 use crate::shadow::{Counters, testers};
@@ -52,7 +52,11 @@ pub fn verdict_table(report: &Validation) -> String {
         );
     }
     for skipped in &report.skipped {
-        let _ = writeln!(text, "skipped: {skipped} would need more than 2e11 tests");
+        let why = match skipped.why {
+            WhySkipped::TooManyTests => "would need more than 2e11 tests",
+            WhySkipped::DirectionalLight => "has no answer for lights infinitely far away",
+        };
+        let _ = writeln!(text, "skipped: {} {why}", skipped.name);
     }
     text
 }

@@ -1,0 +1,106 @@
+//! How a shadow-buffer is divided and looked up.
+
+use super::sphere::Sphere;
+use std::path::Path;
+
+/// Settings of a shadow-buffer. Other than those of the exact testers they decide answers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShadowBufferSettings {
+    /// Cells from pole to pole.
+    pub rows: u32,
+    /// Cells around the axis.
+    pub columns: u32,
+    /// What is compared.
+    pub lookup: Lookup,
+    /// Over how many cells the answer is a mean.
+    pub filter: FilterWidth,
+    /// What distances may differ by.
+    pub bias: DepthBias,
+}
+
+impl Default for ShadowBufferSettings {
+    /// As in the paper: 400 x 800, by identity, without a filter.
+    fn default() -> ShadowBufferSettings {
+        ShadowBufferSettings {
+            rows: 400,
+            columns: 800,
+            lookup: Lookup::Identity,
+            filter: FilterWidth::OFF,
+            bias: DepthBias::CellWidth,
+        }
+    }
+}
+
+/// When a point is lit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Lookup {
+    /// If the cell of its direction holds its own object, as published. Objects shadow no part of themselves, and
+    /// a cell whose centre just misses an object is a false shadow on its silhouette.
+    #[default]
+    Identity,
+    /// Unless what the cell holds is nearer to the light by more than the [`DepthBias`].
+    Depth,
+}
+
+/// How much nearer than a point something must be to shadow it, as a share of the point's distance: a surface
+/// that light grazes is nearer at one end of a cell than at the other, and would shadow itself. What is larger
+/// than it must be lets light in where things touch.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum DepthBias {
+    /// Twice the width of a cell in radians, times that of the filter: enough for surfaces that light meets at
+    /// 27 degrees or more.
+    #[default]
+    CellWidth,
+    /// This share, from 0 to below 1.
+    Share(f32),
+}
+
+impl DepthBias {
+    /// As a share of a distance.
+    pub(super) fn share(self, sphere: &Sphere, filter: FilterWidth) -> f64 {
+        match self {
+            DepthBias::CellWidth => (2.0 * sphere.cell_width() * f64::from(filter.cells())).min(0.5),
+            DepthBias::Share(share) => f64::from(share),
+        }
+    }
+}
+
+/// Percentage-closer filtering: the mean over so many by so many cells around that of a point, an odd number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FilterWidth(u32);
+
+impl FilterWidth {
+    /// One cell: no filter.
+    pub const OFF: FilterWidth = FilterWidth(1);
+
+    /// The widest filter.
+    pub const MOST: u32 = 63;
+
+    /// A filter of so many by so many cells; `None` unless that is odd and at most [`FilterWidth::MOST`].
+    pub fn new(cells: u32) -> Option<FilterWidth> {
+        (cells % 2 == 1 && cells <= FilterWidth::MOST).then_some(FilterWidth(cells))
+    }
+
+    /// Cells along a side.
+    pub fn cells(self) -> u32 {
+        self.0
+    }
+}
+
+impl Default for FilterWidth {
+    fn default() -> FilterWidth {
+        FilterWidth::OFF
+    }
+}
+
+/// Whether building a shadow-buffer writes or reads a file.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum BufferFile<'a> {
+    /// Neither.
+    #[default]
+    Unused,
+    /// It is filled and saved here.
+    Save(&'a Path),
+    /// It is loaded from here and not filled.
+    Load(&'a Path),
+}
