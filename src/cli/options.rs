@@ -128,7 +128,7 @@ pub struct RunOptions {
     #[arg(long, value_name = "N", default_value = "1", value_parser = parse_filter)]
     pub shadow_buffer_filter: FilterWidth,
     /// Share of its distance that something must be nearer than a point to shadow it, in [0, 1), where the
-    /// shadow-buffer looks at depths [default: twice the width of a cell in radians, times that of the filter]
+    /// shadow-buffer looks at depths [default: by the width of a cell and of the filter, 0.022 for 400x800]
     #[arg(long, value_name = "E", value_parser = parse_bias)]
     pub shadow_buffer_bias: Option<f32>,
     /// Threads [default: all]

@@ -47,8 +47,10 @@ pub enum Lookup {
 /// than it must be lets light in where things touch.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum DepthBias {
-    /// Twice the width of a cell in radians, times that of the filter: enough for surfaces that light meets at
-    /// 27 degrees or more.
+    /// A quarter of the root of a cell's width in radians, times that of the filter. In proportion to the width
+    /// it would be too little for the same surfaces however fine the cells are, as they grow finer with it; so
+    /// both they and the gaps where things touch become fewer. 400 x 800 cells: 2.2 %, enough where light comes
+    /// at 10 degrees or more to the surface.
     #[default]
     CellWidth,
     /// This share, from 0 to below 1.
@@ -59,7 +61,10 @@ impl DepthBias {
     /// As a share of a distance.
     pub(super) fn share(self, sphere: &Sphere, filter: FilterWidth) -> f64 {
         match self {
-            DepthBias::CellWidth => (2.0 * sphere.cell_width() * f64::from(filter.cells())).min(0.5),
+            DepthBias::CellWidth => {
+                let width = sphere.cell_width() * f64::from(filter.cells());
+                (0.25 * libm::sqrt(width)).min(0.5)
+            }
             DepthBias::Share(share) => f64::from(share),
         }
     }
