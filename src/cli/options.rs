@@ -241,8 +241,7 @@ fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
 }
 
 fn parse_cells(text: &str) -> std::result::Result<[u32; 2], String> {
-    let sides =
-        text.split_once('x').and_then(|(rows, columns)| Some([rows, columns].map(|n| n.parse().ok())));
+    let sides = text.split_once('x').map(|(rows, columns)| [rows, columns].map(|n| n.parse().ok()));
     match sides {
         Some([Some(rows), Some(columns)]) if Sphere::new(rows, columns).is_some() => Ok([rows, columns]),
         _ => Err("expected ROWSxCOLUMNS, such as 400x800, with 1 to 65536 each".into()),

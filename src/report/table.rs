@@ -43,7 +43,8 @@ pub fn verdict_table(report: &Validation) -> String {
     }
     text.push_str(&summary(&report.totals));
     text.push_str(&causes(&report.totals));
-    let wrong = report.lights.iter().find_map(|light| Some((light, light.wrong_pixels.first()?)));
+    let first = |pixels: &'_ [WrongPixel]| pixels.first().filter(|pixel| !pixel.is_expected()).cloned();
+    let wrong = report.lights.iter().find_map(|light| Some((light, first(&light.wrong_pixels)?)));
     if let Some((light, WrongPixel { pixel: [x, y], .. })) = wrong {
         let _ = writeln!(
             text,

@@ -179,6 +179,13 @@ impl LightReport {
     }
 }
 
+impl WrongPixel {
+    /// Whether nobody is wrong but the shadow-buffer, which only approximates.
+    pub fn is_expected(&self) -> bool {
+        self.testers == [shadow_buffer::ENTRY.name]
+    }
+}
+
 fn wrong_pixels(
     width: u32,
     visible: &VisibleSurfaces,
@@ -194,9 +201,8 @@ fn wrong_pixels(
         (!testers.is_empty()).then_some(WrongPixel { pixel, truth, testers })
     };
     let wrong = || (0..queries.points.len()).filter_map(wrong);
-    let is_approximate = |wrong: &WrongPixel| wrong.testers == [shadow_buffer::ENTRY.name];
-    let others = wrong().filter(|pixel| !is_approximate(pixel));
-    others.chain(wrong().filter(is_approximate)).take(LightReport::MOST_WRONG_PIXELS).collect()
+    let others = wrong().filter(|pixel| !pixel.is_expected());
+    others.chain(wrong().filter(WrongPixel::is_expected)).take(LightReport::MOST_WRONG_PIXELS).collect()
 }
 
 impl Totals {
