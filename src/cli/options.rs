@@ -176,16 +176,21 @@ impl RunOptions {
                 ObjectCoherence::Off
             },
             bounding_volumes: self.volume_threshold.map_or(VolumeThreshold::Off, VolumeThreshold::MoreThan),
-            shadow_buffer: ShadowBufferSettings {
-                rows: self.shadow_buffer_size[0],
-                columns: self.shadow_buffer_size[1],
-                lookup: self.shadow_buffer_lookup,
-                filter: self.shadow_buffer_filter,
-                bias: self.shadow_buffer_bias.map_or(DepthBias::CellWidth, DepthBias::Share),
-            },
+            shadow_buffer: self.shadow_buffer(),
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
             memory: self.memory_limit(),
             ..BuildInput::new(scene, index, light)
+        }
+    }
+
+    /// How shadow-buffers are made and looked up.
+    pub fn shadow_buffer(&self) -> ShadowBufferSettings {
+        ShadowBufferSettings {
+            rows: self.shadow_buffer_size[0],
+            columns: self.shadow_buffer_size[1],
+            lookup: self.shadow_buffer_lookup,
+            filter: self.shadow_buffer_filter,
+            bias: self.shadow_buffer_bias.map_or(DepthBias::CellWidth, DepthBias::Share),
         }
     }
 

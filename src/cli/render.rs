@@ -219,7 +219,8 @@ fn write(
         }
     }
     let testers: Vec<_> = entries.iter().map(|entry| entry.name).collect();
-    picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree)?;
+    let settings = args.run.shadow_buffer();
+    picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree, &settings)?;
     let planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
     write_exr(&args.output, &planes)?;
     output::write_preview(&args.output.with_extension("png"), &planes, args.run.exposure)?;

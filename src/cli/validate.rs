@@ -189,7 +189,9 @@ fn write_all(
     // One that is skipped at some lights has channels of the others.
     let has_mask = |name: &str| judged.iter().any(|(_, verdict)| verdict.tester(name).is_some());
     let testers: Vec<_> = testers().map(|entry| entry.name).filter(|name| has_mask(name)).collect();
-    picture::add_attributes(&mut planes, view, &testers, &args.testers.shadow, report.embree.as_ref())?;
+    let settings = args.run.shadow_buffer();
+    let embree = report.embree.as_ref();
+    picture::add_attributes(&mut planes, view, &testers, &args.testers.shadow, embree, &settings)?;
     write_exr(&file("image.exr"), &planes)?;
     output::write_preview(&file("image.png"), &planes, args.run.exposure)?;
     output::write_json(&file("validate.json"), report)?;

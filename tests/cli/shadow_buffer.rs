@@ -89,6 +89,7 @@ fn its_errors_are_reported_and_do_not_decide_the_exit_code() {
     let image = read_exr(&out.join("image.exr")).unwrap();
     let [mask, truth, verdict] =
         ["shadow-buffer", "exact", "verdict"].map(|name| channel(&image, &format!("shadow.key.{name}")));
+    assert_eq!(image.attribute("shadowBuffer"), Some("50x100 identity"));
     let differs = (0..mask.len()).filter(|&i| mask[i] != truth[i]).count();
     assert_eq!(differs as u64, wrong);
     let called_wrong = verdict.iter().filter(|&&v| [4.0, 6.0].contains(&(v % 10.0))).count();

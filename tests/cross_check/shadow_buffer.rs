@@ -28,6 +28,7 @@ fn no_other_tester_is_measured_and_has_no_cross_check() {
     assert_eq!(others, ["shadow-buffer"]);
 }
 
+/// By identity nothing shadows itself: that is most of what is wrong where an eye and all else is inside one object.
 #[test]
 fn it_is_mostly_right() {
     let (mut wrong, mut queries) = (0, 0);

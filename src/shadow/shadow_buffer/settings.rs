@@ -1,6 +1,7 @@
 //! How a shadow-buffer is divided and looked up.
 
 use super::sphere::Sphere;
+use std::fmt::{Display, Formatter};
 use std::path::Path;
 
 /// Settings of a shadow-buffer. Other than those of the exact testers they decide answers.
@@ -27,6 +28,24 @@ impl Default for ShadowBufferSettings {
             lookup: Lookup::Identity,
             filter: FilterWidth::OFF,
             bias: DepthBias::CellWidth,
+        }
+    }
+}
+
+impl Display for ShadowBufferSettings {
+    /// In words that tell what an answer depends on: `400x800 identity`, `400x800 depth filter 5 bias 0.01`.
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let lookup = match self.lookup {
+            Lookup::Identity => "identity",
+            Lookup::Depth => "depth",
+        };
+        write!(f, "{}x{} {lookup}", self.rows, self.columns)?;
+        if self.filter != FilterWidth::OFF {
+            write!(f, " filter {}", self.filter.cells())?;
+        }
+        match self.bias {
+            DepthBias::CellWidth => Ok(()),
+            DepthBias::Share(share) => write!(f, " bias {share}"),
         }
     }
 }
