@@ -5,6 +5,8 @@ use crate::geometry::LightPosition;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
 use crate::shading::USUAL_DEPTH;
+use crate::shadow::shadow_buffer::sphere::Sphere;
+use crate::shadow::shadow_buffer::{DepthBias, FilterWidth, Lookup, ShadowBufferSettings};
 use crate::shadow::{
     BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, VolumeThreshold,
 };
@@ -114,6 +116,21 @@ pub struct RunOptions {
     /// Share of a segment that Embree leaves out at both ends, in [0, 0.5)
     #[arg(long, value_name = "E", default_value_t = 1e-4, value_parser = parse_epsilon)]
     pub embree_epsilon: f32,
+    /// Cells of the shadow-buffer from pole to pole and around it, 1 to 65536 each. Decides its answers
+    #[arg(long, value_name = "ROWSxCOLUMNS", default_value = "400x800", value_parser = parse_cells)]
+    pub shadow_buffer_size: [u32; 2],
+    /// When the shadow-buffer calls a point lit: identity, if the cell of its direction holds its own object, as
+    /// published; or depth, unless what the cell holds is nearer by more than the bias
+    #[arg(long, value_name = "WHAT", default_value = "identity", value_parser = parse_lookup)]
+    pub shadow_buffer_lookup: Lookup,
+    /// Mean over N x N cells of the shadow-buffer, N odd and at most 63: soft edges in the picture, and dark in
+    /// masks where less than half is lit; 1 is off
+    #[arg(long, value_name = "N", default_value = "1", value_parser = parse_filter)]
+    pub shadow_buffer_filter: FilterWidth,
+    /// Share of its distance that something must be nearer than a point to shadow it, in [0, 1), where the
+    /// shadow-buffer looks at depths [default: by the width of a cell and of the filter, 0.022 for 400x800]
+    #[arg(long, value_name = "E", value_parser = parse_bias)]
+    pub shadow_buffer_bias: Option<f32>,
     /// Threads [default: all]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -159,9 +176,21 @@ impl RunOptions {
                 ObjectCoherence::Off
             },
             bounding_volumes: self.volume_threshold.map_or(VolumeThreshold::Off, VolumeThreshold::MoreThan),
+            shadow_buffer: self.shadow_buffer(),
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
             memory: self.memory_limit(),
             ..BuildInput::new(scene, index, light)
+        }
+    }
+
+    /// How shadow-buffers are made and looked up.
+    pub fn shadow_buffer(&self) -> ShadowBufferSettings {
+        ShadowBufferSettings {
+            rows: self.shadow_buffer_size[0],
+            columns: self.shadow_buffer_size[1],
+            lookup: self.shadow_buffer_lookup,
+            filter: self.shadow_buffer_filter,
+            bias: self.shadow_buffer_bias.map_or(DepthBias::CellWidth, DepthBias::Share),
         }
     }
 
@@ -216,6 +245,34 @@ fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
     }
 }
 
+fn parse_cells(text: &str) -> std::result::Result<[u32; 2], String> {
+    let sides = text.split_once('x').map(|(rows, columns)| [rows, columns].map(|n| n.parse().ok()));
+    match sides {
+        Some([Some(rows), Some(columns)]) if Sphere::new(rows, columns).is_some() => Ok([rows, columns]),
+        _ => Err("expected ROWSxCOLUMNS, such as 400x800, with 1 to 65536 each".into()),
+    }
+}
+
+fn parse_lookup(text: &str) -> std::result::Result<Lookup, String> {
+    match text {
+        "identity" => Ok(Lookup::Identity),
+        "depth" => Ok(Lookup::Depth),
+        _ => Err("expected identity or depth".into()),
+    }
+}
+
+fn parse_filter(text: &str) -> std::result::Result<FilterWidth, String> {
+    let cells = text.parse().ok().and_then(FilterWidth::new);
+    cells.ok_or_else(|| format!("expected an odd number from 1 to {}", FilterWidth::MOST))
+}
+
+fn parse_bias(text: &str) -> std::result::Result<f32, String> {
+    match text.parse() {
+        Ok(bias) if (0.0..1.0).contains(&bias) => Ok(bias),
+        _ => Err("expected a number in [0, 1)".into()),
+    }
+}
+
 fn parse_culling(text: &str) -> std::result::Result<Culling, String> {
     match text {
         "off" => Ok(Culling::Off),
@@ -256,6 +313,18 @@ mod tests {
         for bad in ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,1e99"] {
             assert!(parse_point(bad).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn shadow_buffers_have_sizes_filters_and_biases_in_range() {
+        assert_eq!(parse_cells("400x800"), Ok([400, 800]));
+        for bad in ["", "400", "0x800", "400x0", "65537x1", "-1x5", "1x2x3", "99999999999x1"] {
+            assert!(parse_cells(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_filter("3"), Ok(FilterWidth::new(3).unwrap()));
+        assert!(["0", "2", "65", "-1", "x"].iter().all(|bad| parse_filter(bad).is_err()));
+        assert!(parse_lookup("depth").is_ok() && parse_lookup("Depth").is_err());
+        assert!(parse_bias("0").is_ok() && parse_bias("1").is_err() && parse_bias("nan").is_err());
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
 use crate::shading::shade_picture;
 use crate::shadow::Queries;
+use crate::shadow::shadow_buffer::{self, ShadowBufferSettings};
 use crate::verdict::{LightVerdict, TesterRun};
 use crate::visibility::VisibleSurfaces;
 
@@ -30,7 +31,10 @@ pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> R
 
 fn arriving(view: &View, seen: &Seen, queries: &Queries, run: &TesterRun) -> Vec<[f32; 3]> {
     let points = seen.forest.nodes.points.len();
-    queries.arriving(&view.scene, points, &run.occluded, run.crossings.as_ref())
+    match &run.soft_light {
+        Some(soft) => queries.arriving_by(&view.scene, points, |query| soft[query]),
+        None => queries.arriving(&view.scene, points, &run.occluded, run.crossings.as_ref()),
+    }
 }
 
 /// The run of one tester at every light.
@@ -101,6 +105,7 @@ pub fn add_attributes(
     testers: &[&str],
     tester: &str,
     embree: Option<&EmbreeFacts>,
+    settings: &ShadowBufferSettings,
 ) -> Result<()> {
     planes.add_attribute("version", env!("CARGO_PKG_VERSION"))?;
     planes.add_attribute("scene", &view.scene.name)?;
@@ -108,6 +113,10 @@ pub fn add_attributes(
     planes.add_attribute("camera", &view.camera.name)?;
     planes.add_attribute("testers", testers.join(" "))?;
     planes.add_attribute("shadow", tester)?;
+    if testers.contains(&shadow_buffer::ENTRY.name) {
+        // They decide its answers.
+        planes.add_attribute("shadowBuffer", settings.to_string())?;
+    }
     if let Some(embree) = embree {
         planes.add_attribute("embree", &embree.version)?;
         planes.add_attribute("embreeEpsilon", format!("{:e}", embree.epsilon))?;

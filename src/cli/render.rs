@@ -2,16 +2,17 @@
 
 use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages};
-use super::testers::expect_available;
+use super::testers::{expect_available, expect_lights};
 use super::view::{Seen, View};
 use super::{Outcome, output, picture, validate};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::film::{subdivided, unique_safe_names, write_exr};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
 use crate::shadow::Queries;
-use crate::shadow::{Basis, TesterEntry, find};
+use crate::shadow::shadow_buffer::{self, BufferFile};
+use crate::shadow::{Basis, BuildInput, TesterEntry, find};
 use crate::verdict::{LightVerdict, TesterRun, judge, run_tester};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -40,6 +41,14 @@ pub struct Args {
     /// Facts of the run as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Save the shadow-buffer of each light in this folder, as LIGHT.shadow-buffer, for other views of the scene;
+    /// with --shadow shadow-buffer
+    #[arg(long, value_name = "DIR")]
+    save_shadow_buffers: Option<PathBuf>,
+    /// Load the shadow-buffer of each light from a folder where they were saved, in place of filling it: those of
+    /// another scene, light or size are refused; with --shadow shadow-buffer
+    #[arg(long, value_name = "DIR", conflicts_with = "save_shadow_buffers")]
+    load_shadow_buffers: Option<PathBuf>,
     #[command(flatten)]
     run: RunOptions,
 }
@@ -80,6 +89,28 @@ impl Args {
     fn without_verdict(&self) -> bool {
         self.no_verdict || self.subdivide > 1
     }
+
+    /// Only the shadow-buffer has files, and the folder for them must be one.
+    fn expect_shadow_buffer(&self, tester: &TesterEntry) -> Result<()> {
+        let folders = [
+            ("--save-shadow-buffers", &self.save_shadow_buffers),
+            ("--load-shadow-buffers", &self.load_shadow_buffers),
+        ];
+        for (option, _) in folders.iter().filter(|(_, folder)| folder.is_some()) {
+            if tester.name != shadow_buffer::ENTRY.name {
+                return Err(Error::Usage(format!("{option}: only with --shadow shadow-buffer")));
+            }
+        }
+        self.save_shadow_buffers.as_deref().map_or(Ok(()), output::expect_folder)
+    }
+
+    /// Where the buffer of each light is saved or loaded.
+    fn shadow_buffer_files(&self, lights: &[Light]) -> Vec<Option<PathBuf>> {
+        let folder = self.save_shadow_buffers.as_ref().or(self.load_shadow_buffers.as_ref());
+        let names = unique_safe_names(&lights.iter().map(|light| &light.name).collect::<Vec<_>>());
+        let file = |name| Some(folder?.join(format!("{name}.shadow-buffer")));
+        names.into_iter().map(file).collect()
+    }
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
@@ -90,9 +121,11 @@ pub fn run(args: &Args) -> Result<Outcome> {
 fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     let tester = find(&args.shadow)?;
     expect_available(tester)?;
+    args.expect_shadow_buffer(tester)?;
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let mut view = View::load(&args.view, &args.lights, messages)?;
+    expect_lights(tester, &view.scene.lights)?;
     view.subdivide(args.subdivide)?;
     let seen = view.look(args.trees.depth, args.run.memory_limit())?;
     let index = args.run.index(&view.scene);
@@ -107,10 +140,19 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         entries.push(find("embree")?);
     }
     let mut lights = Vec::new();
-    for light in &view.scene.lights {
+    if let Some(folder) = &args.save_shadow_buffers {
+        output::folder(folder)?;
+    }
+    let files = args.shadow_buffer_files(&view.scene.lights);
+    for (light, file) in view.scene.lights.iter().zip(&files) {
         let position = light.position();
         let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
-        let input = args.run.build_input(&view.scene, &index, position);
+        let shadow_buffer_file = match file {
+            None => BufferFile::Unused,
+            Some(file) if args.load_shadow_buffers.is_some() => BufferFile::Load(file),
+            Some(file) => BufferFile::Save(file),
+        };
+        let input = BuildInput { shadow_buffer_file, ..args.run.build_input(&view.scene, &index, position) };
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = if args.without_verdict() {
             Shadow::Alone(run_tester(tester, &input, &queries, &bars)?)
@@ -177,7 +219,8 @@ fn write(
         }
     }
     let testers: Vec<_> = entries.iter().map(|entry| entry.name).collect();
-    picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree)?;
+    let settings = args.run.shadow_buffer();
+    picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree, &settings)?;
     let planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
     write_exr(&args.output, &planes)?;
     output::write_preview(&args.output.with_extension("png"), &planes, args.run.exposure)?;

@@ -149,7 +149,7 @@ fn ask(replay: &mut Replay, args: &Args, view: &View, light: &Light, point: &Sur
             at: place(&meeting),
         })
         .collect();
-    for entry in REGISTRY {
+    for entry in REGISTRY.iter().filter(|entry| entry.lights.has(light.position())) {
         let tester = (entry.build)(&input)?;
         let mut answer = [false];
         tester.occluded(&[*point], &mut answer)?;

@@ -1,7 +1,8 @@
 //! Which testers a run asks.
 
 use super::progress::Messages;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::scene::Light;
 use crate::shadow::{Basis, REGISTRY, TesterEntry, find, testers};
 
 /// The options that say so.
@@ -36,12 +37,31 @@ impl TesterOptions {
         Ok(testers().filter(wanted).collect())
     }
 
+    /// Whether a tester was asked for by its own name.
+    pub fn is_named(&self, name: &str) -> bool {
+        self.testers.iter().any(|other| other == name) || name == self.shadow
+    }
+
     /// Whether a tester's mask is a channel of the picture: if it was asked for by its own name or by none.
     pub fn has_mask(&self, name: &str) -> bool {
-        let named = self.testers.iter().any(|other| other == name) || name == self.shadow;
+        let named = self.is_named(name);
         let by_default = self.testers.is_empty() && REGISTRY.iter().any(|entry| entry.name == name);
         let truth = REGISTRY.iter().any(|entry| entry.name == name && entry.basis == Basis::Truth);
         named || by_default || truth
+    }
+}
+
+/// Fails if the tester cannot be built for one of the lights, so that nobody waits for the truth before that is said.
+///
+/// # Errors
+/// As said.
+pub fn expect_lights(entry: &TesterEntry, lights: &[Light]) -> Result<()> {
+    match lights.iter().find(|light| !entry.lights.has(light.position())) {
+        None => Ok(()),
+        Some(light) => Err(Error::Usage(format!(
+            "{}: the light {} is infinitely far away, and this tester has no answer for such",
+            entry.name, light.name
+        ))),
     }
 }
 
@@ -78,5 +98,5 @@ fn embree_modes(messages: Messages) -> Result<Vec<&'static str>> {
 
 #[cfg(not(feature = "embree"))]
 fn embree_modes(_: Messages) -> Result<Vec<&'static str>> {
-    Err(crate::error::Error::Usage("--embree-modes: built without the feature `embree`".into()))
+    Err(Error::Usage("--embree-modes: built without the feature `embree`".into()))
 }

@@ -3,15 +3,16 @@
 use super::Outcome;
 use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages};
-use super::testers::TesterOptions;
+use super::testers::{TesterOptions, expect_lights};
 use super::view::{Seen, View};
 use super::{output, picture};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
+use crate::geometry::LightPosition;
 use crate::report::table::{statistics, verdict_table};
-use crate::report::validation::{EmbreeFacts, LightReport, Totals, Validation};
+use crate::report::validation::{EmbreeFacts, LightReport, Skipped, Totals, Validation, WhySkipped};
 use crate::shadow::Queries;
-use crate::shadow::{SceneIndex, TesterEntry};
+use crate::shadow::{SceneIndex, TesterEntry, testers};
 use crate::verdict::{LightVerdict, Progress, check_arbiter, judge};
 use std::path::{Path, PathBuf};
 
@@ -63,6 +64,9 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, messages)?;
+    for entry in entries.iter().filter(|entry| args.testers.is_named(entry.name)) {
+        expect_lights(entry, &view.scene.lights)?;
+    }
     let limit = args.run.memory_limit();
     // A byte an answer until all testers of a light have been judged.
     let answers = view.size.pixels() as u64 * entries.len() as u64;
@@ -87,7 +91,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let position = light.position();
         let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
         let input = args.run.build_input(&view.scene, &index, position);
-        let fitting = fitting(entries, &index, &queries, &mut report.skipped);
+        let fitting = fitting(entries, position, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let mut verdict = judge(&input, &queries, &fitting, &bars)?;
         let visible = &seen.forest.nodes;
@@ -124,17 +128,25 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
 
 fn fitting<'e>(
     entries: &[&'e TesterEntry],
+    light: LightPosition,
     index: &SceneIndex,
     queries: &Queries,
-    skipped: &mut Vec<String>,
+    skipped: &mut Vec<Skipped>,
 ) -> Vec<&'e TesterEntry> {
     let (casters, queries) = (index.casting.len() as f64, queries.points.len() as f64);
+    let why_not = |entry: &TesterEntry| match entry.lights.has(light) {
+        false => Some(WhySkipped::DirectionalLight),
+        true if (entry.expected_tests)(casters, queries) > MOST_TESTS => Some(WhySkipped::TooManyTests),
+        true => None,
+    };
     let fits = |entry: &&&TesterEntry| {
-        let fits = (entry.expected_tests)(casters, queries) <= MOST_TESTS;
-        if !fits && !skipped.iter().any(|name| name == entry.name) {
-            skipped.push(entry.name.into());
+        let why = why_not(entry);
+        if let Some(skip) = why.map(|why| Skipped { name: entry.name, why })
+            && !skipped.contains(&skip)
+        {
+            skipped.push(skip);
         }
-        fits
+        why.is_none()
     };
     entries.iter().filter(fits).copied().collect()
 }
@@ -174,8 +186,12 @@ fn write_all(
             write_false_colour(&file(&format!("{name}.{}.png", map.kind)), &map.colours)?;
         }
     }
-    let testers: Vec<_> = judged.iter().take(1).flat_map(|(_, v)| &v.testers).map(|t| t.run.name).collect();
-    picture::add_attributes(&mut planes, view, &testers, &args.testers.shadow, report.embree.as_ref())?;
+    // One that is skipped at some lights has channels of the others.
+    let has_mask = |name: &str| judged.iter().any(|(_, verdict)| verdict.tester(name).is_some());
+    let testers: Vec<_> = testers().map(|entry| entry.name).filter(|name| has_mask(name)).collect();
+    let settings = args.run.shadow_buffer();
+    let embree = report.embree.as_ref();
+    picture::add_attributes(&mut planes, view, &testers, &args.testers.shadow, embree, &settings)?;
     write_exr(&file("image.exr"), &planes)?;
     output::write_preview(&file("image.png"), &planes, args.run.exposure)?;
     output::write_json(&file("validate.json"), report)?;

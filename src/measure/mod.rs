@@ -5,4 +5,4 @@ pub mod reproduction;
 mod run;
 
 pub use repeated::Repeated;
-pub use run::{Answers, Question, Timed, answer, timed};
+pub use run::{Answers, Question, Timed, answer, soft_light, timed};

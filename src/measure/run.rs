@@ -96,6 +96,42 @@ pub fn answer(
     Ok(Answers { occluded, crossings, counters, seconds: run.seconds })
 }
 
+/// The share of the light that arrives at each point past opaque and through transparent surfaces, by a tester
+/// whose shadows have soft edges; `None` for all others. No time is taken.
+///
+/// # Errors
+/// The first error of the tester.
+pub fn soft_light(
+    tester: &dyn ShadowTester,
+    scene: &Scene,
+    points: &[SurfacePoint],
+    answers: &Answers,
+) -> Result<Option<Vec<[f32; 3]>>> {
+    if tester.lit_share(&[], &mut [])?.is_none() {
+        return Ok(None);
+    }
+    let chunk = |(chunk, points): (usize, &[SurfacePoint])| {
+        let first = chunk * CHUNK;
+        let mut shares = vec![0.0; points.len()];
+        tester.lit_share(points, &mut shares)?;
+        let Some(crossings) = &answers.crossings else {
+            return Ok(shares.into_iter().map(|share| [share; 3]).collect());
+        };
+        // Nobody has asked yet what lies in the way of what little reaches those that count as occluded.
+        let half_dark: Vec<bool> =
+            (0..points.len()).map(|i| answers.occluded[first + i] && shares[i] > 0.0).collect();
+        let asked: Vec<bool> = half_dark.iter().map(|half_dark| !half_dark).collect();
+        let rest = crossed(tester, points, &asked, &mut Counters::default())?;
+        let transmittance = |i: usize| match half_dark[i] {
+            true => rest.transmittance(scene, i),
+            false => crossings.transmittance(scene, first + i),
+        };
+        Ok((0..points.len()).map(|i| transmittance(i).map(|share| share * shares[i])).collect::<Vec<_>>())
+    };
+    let chunks = points.par_chunks(CHUNK).enumerate().map(chunk).collect::<Result<Vec<_>>>()?;
+    Ok(Some(chunks.concat()))
+}
+
 /// What the segments of those that are not occluded cross.
 fn crossed(
     tester: &dyn ShadowTester,

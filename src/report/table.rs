@@ -1,6 +1,6 @@
 //! Verdict tables for people.
 
-use super::validation::{TesterReport, Totals, Validation, WrongPixel};
+use super::validation::{TesterReport, Totals, Validation, WhySkipped, WrongPixel};
 use crate::film::grouped;
 use crate::shading::TreeStatistics;
 use crate::shadow::{Counters, testers};
@@ -43,7 +43,8 @@ pub fn verdict_table(report: &Validation) -> String {
     }
     text.push_str(&summary(&report.totals));
     text.push_str(&causes(&report.totals));
-    let wrong = report.lights.iter().find_map(|light| Some((light, light.wrong_pixels.first()?)));
+    let first = |pixels: &'_ [WrongPixel]| pixels.first().filter(|pixel| !pixel.is_expected()).cloned();
+    let wrong = report.lights.iter().find_map(|light| Some((light, first(&light.wrong_pixels)?)));
     if let Some((light, WrongPixel { pixel: [x, y], .. })) = wrong {
         let _ = writeln!(
             text,
@@ -52,7 +53,11 @@ pub fn verdict_table(report: &Validation) -> String {
         );
     }
     for skipped in &report.skipped {
-        let _ = writeln!(text, "skipped: {skipped} would need more than 2e11 tests");
+        let why = match skipped.why {
+            WhySkipped::TooManyTests => "would need more than 2e11 tests",
+            WhySkipped::DirectionalLight => "has no answer for lights infinitely far away",
+        };
+        let _ = writeln!(text, "skipped: {} {why}", skipped.name);
     }
     text
 }

@@ -1,6 +1,6 @@
 //! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
 
-use crate::shadow::{Basis, Queries};
+use crate::shadow::{Basis, Queries, shadow_buffer};
 use crate::verdict::{ArbiterCheck, CauseCounts, LightVerdict, TesterCounts, TesterResult, VerdictCounts};
 use crate::visibility::VisibleSurfaces;
 use serde::Serialize;
@@ -22,12 +22,36 @@ pub struct Validation {
     /// Embree's version and instruction set; absent without it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub embree: Option<EmbreeFacts>,
-    /// Testers that would have taken too long, by name.
-    pub skipped: Vec<String>,
+    /// Testers that were not asked, by name.
+    pub skipped: Vec<Skipped>,
     /// One entry a light.
     pub lights: Vec<LightReport>,
     /// Sums over the lights.
     pub totals: Totals,
+}
+
+/// A tester that was not asked, at some light at least; written as its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Skipped {
+    /// The tester.
+    pub name: &'static str,
+    /// Why.
+    pub why: WhySkipped,
+}
+
+/// Why a tester was not asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhySkipped {
+    /// It would have needed more than 2e11 tests.
+    TooManyTests,
+    /// It cannot be built for a light infinitely far away.
+    DirectionalLight,
+}
+
+impl Serialize for Skipped {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
 }
 
 /// What Embree says of itself.
@@ -66,7 +90,8 @@ pub struct LightReport {
     pub testers: BTreeMap<&'static str, TesterReport>,
     /// Who is right where.
     pub verdicts: VerdictCounts,
-    /// The first pixels, row by row, where some tester is wrong, at most [`LightReport::MOST_WRONG_PIXELS`].
+    /// The first pixels, row by row, where some tester is wrong, at most [`LightReport::MOST_WRONG_PIXELS`]; behind
+    /// all others those where only the shadow-buffer is, which would leave no room for them.
     pub wrong_pixels: Vec<WrongPixel>,
     /// The arbiter against the plain definition, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -154,6 +179,13 @@ impl LightReport {
     }
 }
 
+impl WrongPixel {
+    /// Whether nobody is wrong but the shadow-buffer, which only approximates.
+    pub fn is_expected(&self) -> bool {
+        self.testers == [shadow_buffer::ENTRY.name]
+    }
+}
+
 fn wrong_pixels(
     width: u32,
     visible: &VisibleSurfaces,
@@ -168,7 +200,9 @@ fn wrong_pixels(
         let pixel = [pixel % width, pixel / width];
         (!testers.is_empty()).then_some(WrongPixel { pixel, truth, testers })
     };
-    (0..queries.points.len()).filter_map(wrong).take(LightReport::MOST_WRONG_PIXELS).collect()
+    let wrong = || (0..queries.points.len()).filter_map(wrong);
+    let others = wrong().filter(|pixel| !pixel.is_expected());
+    others.chain(wrong().filter(WrongPixel::is_expected)).take(LightReport::MOST_WRONG_PIXELS).collect()
 }
 
 impl Totals {

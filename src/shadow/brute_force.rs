@@ -1,7 +1,7 @@
 //! Every primitive for every query: the classical tracer of the 2004 paper, with the native predicates.
 
-use super::precise::{self, crossed_among, is_there};
-use super::{Basis, BuildInput, Casters, Counters, Crossings, SceneIndex, ShadowTester, TesterEntry};
+use super::precise::{self, crossed_by_points, is_there};
+use super::{Basis, BuildInput, Casters, Counters, Crossings, Lights, SceneIndex, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::LightPoint;
 use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
@@ -14,6 +14,7 @@ use std::ops::Range;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "brute-force",
     basis: Basis::Exact,
+    lights: Lights::All,
     build: &|input| Ok(Box::new(BruteForce::new(input, InstructionSet::best()))),
     expected_tests: |casters, queries| casters * queries,
 };
@@ -114,13 +115,7 @@ impl ShadowTester for BruteForce<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
-        let mut counters = Counters::default();
-        for point in points {
-            let query = PreciseQuery::new(&self.casters.space, point.position, || point.exact(self.scene));
-            let all = self.index.transparent.iter().copied();
-            crossings.push(crossed_among(self.scene, all, point.primitive(), &query, &mut counters));
-        }
-        Ok(counters)
+        Ok(crossed_by_points(self.scene, self.index, &self.casters.space, points, crossings))
     }
 
     fn bytes(&self) -> usize {

@@ -13,7 +13,7 @@
 
 mod casters;
 
-use super::{Basis, Build, BuildInput, Counters, Crossings, ShadowTester, TesterEntry, TracedRay};
+use super::{Basis, Build, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry, TracedRay};
 use crate::embree::{Device, EmbreeMode, EmbreeScene, QueryOptions, Receiver, ShadowRay};
 use crate::error::Result;
 use crate::geometry::LightPosition;
@@ -27,6 +27,7 @@ use std::sync::LazyLock;
 pub const ROBUST: TesterEntry = TesterEntry {
     name: "embree",
     basis: Basis::Measured,
+    lights: Lights::All,
     build: &|input| Ok(Box::new(Embree::new(input, EmbreeMode::ORACLE)?)),
     expected_tests,
 };
@@ -35,6 +36,7 @@ pub const ROBUST: TesterEntry = TesterEntry {
 pub const FAST: TesterEntry = TesterEntry {
     name: "embree-fast",
     basis: Basis::Measured,
+    lights: Lights::All,
     build: &|input| Ok(Box::new(Embree::new(input, EmbreeMode::RIVAL)?)),
     expected_tests,
 };
@@ -48,6 +50,7 @@ fn entry(mode: EmbreeMode) -> TesterEntry {
     TesterEntry {
         name: mode.to_string().leak(),
         basis: Basis::Measured,
+        lights: Lights::All,
         build: Box::leak(build),
         expected_tests,
     }

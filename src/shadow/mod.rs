@@ -17,6 +17,7 @@ mod precise;
 mod queries;
 mod registry;
 mod scene_index;
+pub mod shadow_buffer;
 mod solids;
 mod traced_ray;
 
@@ -24,7 +25,7 @@ pub use counters::Counters;
 pub use crossings::Crossings;
 pub use precise::{blocks, crossings_of, is_there};
 pub use queries::Queries;
-pub use registry::{Basis, Build, BuildInput, EmbreeSettings, REGISTRY, TesterEntry, find, testers};
+pub use registry::{Basis, Build, BuildInput, EmbreeSettings, Lights, REGISTRY, TesterEntry, find, testers};
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;
@@ -50,6 +51,16 @@ pub trait ShadowTester: Send + Sync {
     /// If the tester has no answer for transparent surfaces, or as [`occluded`](ShadowTester::occluded).
     fn crossed(&self, _points: &[SurfacePoint], _crossings: &mut Crossings) -> Result<Counters> {
         Err(Error::Usage("this shadow tester has no answer for transparent surfaces".into()))
+    }
+
+    /// Sets `shares[i]` to the share of the light, from 0 to 1, that reaches `points[i]` past what is opaque, for
+    /// testers whose shadows have soft edges: below one half is occluded. `None`, and nothing is set, from all
+    /// others.
+    ///
+    /// # Errors
+    /// As [`occluded`](ShadowTester::occluded).
+    fn lit_share(&self, _points: &[SurfacePoint], _shares: &mut [f32]) -> Result<Option<Counters>> {
+        Ok(None)
     }
 
     /// Memory that the tester keeps, in bytes.

@@ -1,10 +1,11 @@
 //! One primitive against one segment, behind the float filter: what every exact native tester ends in.
 
-use super::Counters;
-use crate::geometry::ExactPosition;
+use super::{Counters, Crossings, SceneIndex};
 use crate::geometry::curved::Base;
 use crate::geometry::occlusion::{PreciseQuery, Stage};
+use crate::geometry::{ExactPosition, LightSpace};
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
+use crate::visibility::SurfacePoint;
 
 /// Whether a primitive blocks the open segment between a point on `base` and the light (TRUTH, "Occluded").
 pub fn blocks<F: Fn() -> ExactPosition>(
@@ -65,6 +66,23 @@ pub fn crossed_among<F: Fn() -> ExactPosition>(
         crossed.extend((0..times).map(|_| primitive));
     }
     crossed
+}
+
+/// Appends for each point the transparent primitives that its segment crosses: every one of the scene is tested.
+pub fn crossed_by_points(
+    scene: &Scene,
+    index: &SceneIndex,
+    space: &LightSpace,
+    points: &[SurfacePoint],
+    crossings: &mut Crossings,
+) -> Counters {
+    let mut counters = Counters::default();
+    for point in points {
+        let query = PreciseQuery::new(space, point.position, || point.exact(scene));
+        let all = index.transparent.iter().copied();
+        crossings.push(crossed_among(scene, all, point.primitive(), &query, &mut counters));
+    }
+    counters
 }
 
 /// Whether a point lies on a primitive.

@@ -66,9 +66,22 @@ impl Queries {
         occluded: &[bool],
         crossings: Option<&Crossings>,
     ) -> Vec<[f32; 3]> {
+        self.arriving_by(scene, points, |query| match occluded[query] {
+            true => [0.0; 3],
+            false => crossings.map_or([1.0; 3], |c| c.transmittance(scene, query)),
+        })
+    }
+
+    /// The same from what arrives at each query.
+    pub fn arriving_by(
+        &self,
+        scene: &Scene,
+        points: usize,
+        at_query: impl Fn(usize) -> [f32; 3],
+    ) -> Vec<[f32; 3]> {
         let mut shares = vec![[0.0; 3]; points];
-        for (i, &node) in self.nodes.iter().enumerate().filter(|&(i, _)| !occluded[i]) {
-            shares[node as usize] = crossings.map_or([1.0; 3], |c| c.transmittance(scene, i));
+        for (query, &node) in self.nodes.iter().enumerate() {
+            shares[node as usize] = at_query(query);
         }
         for &query in &self.from_behind {
             let (node, point) = (self.nodes[query as usize], &self.points[query as usize]);

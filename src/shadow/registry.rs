@@ -1,8 +1,9 @@
 //! Every shadow tester there is. A tester that is not here is not cross-checked, and a test says so.
 
+use super::shadow_buffer::{BufferFile, ShadowBufferSettings};
 use super::{
     Culling, ObjectCoherence, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold,
-    bounding_volumes, brute_force, exact, light_buffer,
+    bounding_volumes, brute_force, exact, light_buffer, shadow_buffer,
 };
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
@@ -18,6 +19,22 @@ pub enum Basis {
     Exact,
     /// Answers whose error is measured and reported.
     Measured,
+}
+
+/// Lights that a tester can be built for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lights {
+    /// Any.
+    All,
+    /// Those at a point, and not infinitely far away.
+    AtPoints,
+}
+
+impl Lights {
+    /// Whether this is one of them.
+    pub fn has(self, light: LightPosition) -> bool {
+        self == Lights::All || matches!(light, LightPosition::At(_))
+    }
 }
 
 /// All that building a tester for one light needs.
@@ -39,6 +56,10 @@ pub struct BuildInput<'a> {
     pub bounding_volumes: VolumeThreshold,
     /// Whether the last occluder is tried first.
     pub object_coherence: ObjectCoherence,
+    /// The shadow-buffer's settings.
+    pub shadow_buffer: ShadowBufferSettings,
+    /// Whether the shadow-buffer is saved, or loaded and not filled.
+    pub shadow_buffer_file: BufferFile<'a>,
     /// Embree's settings.
     pub embree: EmbreeSettings,
     /// The most memory that it may need.
@@ -58,6 +79,8 @@ impl<'a> BuildInput<'a> {
             culling: Culling::Off,
             bounding_volumes: VolumeThreshold::Off,
             object_coherence: ObjectCoherence::Off,
+            shadow_buffer: ShadowBufferSettings::default(),
+            shadow_buffer_file: BufferFile::Unused,
             embree: EmbreeSettings::default(),
             memory: MemoryLimit::NONE,
         }
@@ -90,6 +113,8 @@ pub struct TesterEntry {
     pub name: &'static str,
     /// What its answers rest on.
     pub basis: Basis,
+    /// The lights that it can be built for.
+    pub lights: Lights,
     /// Builds it for one light.
     pub build: &'static Build,
     /// Expected number of triangle tests for a number of casters and queries.
@@ -102,6 +127,7 @@ pub const REGISTRY: &[TesterEntry] = &[
     brute_force::ENTRY,
     bounding_volumes::ENTRY,
     light_buffer::ENTRY,
+    shadow_buffer::ENTRY,
     #[cfg(feature = "embree")]
     super::embree::ROBUST,
     #[cfg(feature = "embree")]

@@ -2,7 +2,7 @@
 
 use super::{Cause, CauseCounts, TesterCounts, VerdictCounts};
 use crate::error::Result;
-use crate::measure::{Question, Timed, answer, timed};
+use crate::measure::{Question, Timed, answer, soft_light, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
 use crate::shadow::{Basis, BuildInput, Counters, Crossings, Queries, ShadowTester, TesterEntry};
 use crate::visibility::SurfacePoint;
@@ -19,6 +19,8 @@ pub struct TesterRun {
     pub occluded: Vec<bool>,
     /// What transparent surfaces the segment of each query crosses, if the scene has such that cast shadows.
     pub crossings: Option<Crossings>,
+    /// The share of the light that arrives at each query, if its shadows have soft edges.
+    pub soft_light: Option<Vec<[f32; 3]>>,
     /// The work it took.
     pub counters: Counters,
     /// Seconds to build it.
@@ -137,6 +139,7 @@ fn truth_run(
         basis: entry.basis,
         occluded: truth.to_vec(),
         crossings: crossed.cloned(),
+        soft_light: None,
         counters: Counters::default(),
         build_seconds: arbiter.seconds,
         ns_per_query: per_query(seconds, truth.len()),
@@ -211,11 +214,13 @@ fn ask<'a>(
     let tester = built.value?;
     let question = Question::of(input.scene);
     let answers = answer(tester.as_ref(), &queries.points, question, &|n| progress.advance(n))?;
+    let soft_light = soft_light(tester.as_ref(), input.scene, &queries.points, &answers)?;
     let run = TesterRun {
         name: entry.name,
         basis: entry.basis,
         occluded: answers.occluded,
         crossings: answers.crossings,
+        soft_light,
         counters: answers.counters,
         build_seconds: built.seconds,
         ns_per_query: per_query(answers.seconds, queries.points.len()),

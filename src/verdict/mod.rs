@@ -3,11 +3,13 @@
 mod cause;
 mod check;
 mod counts;
+mod edges;
 mod judge;
 mod maps;
 
 pub use cause::{Cause, CauseCounts};
 pub use check::{ArbiterCheck, check_arbiter};
 pub use counts::{TesterCounts, VerdictCounts};
+pub use edges::{EdgeCounts, ShadowEdges};
 pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, run_tester};
 pub use maps::PixelVerdict;

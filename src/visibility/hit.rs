@@ -21,7 +21,7 @@ pub struct FirstHits {
 
 /// One buffer item of the 2004 paper: the object and its t.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hit {
+pub(crate) struct Hit {
     pub primitive: PrimitiveIndex,
     pub parameter: RayParameter,
     /// Of a curved surface, which of its points.
@@ -59,7 +59,7 @@ impl Hit {
 }
 
 /// Whether a triangle is there where a ray hits it, and not a hole of its mask.
-pub(super) fn is_there(
+pub(crate) fn is_there(
     scene: &Scene,
     primitive: PrimitiveIndex,
     triangle: &RayTriangle,
@@ -90,7 +90,7 @@ pub(super) fn is_there_beyond(
 /// Equal exact t is decided by the sorted coordinates of the corners, then by the content of the material
 /// (TRUTH, "Surface points and rays"): never by index, so that the picture does not depend on the order of
 /// the objects. Where even those are equal the two cannot be told apart, and the first stays.
-pub(super) fn keep_nearer(stored: &mut Option<Hit>, new: Hit, scene: &Scene, origin: Vec3, direction: Vec3) {
+pub(crate) fn keep_nearer(stored: &mut Option<Hit>, new: Hit, scene: &Scene, origin: Vec3, direction: Vec3) {
     let nearer = match stored {
         None => true,
         Some(old) => {

@@ -8,4 +8,5 @@ mod surface_point;
 pub mod t_buffer;
 
 pub use hit::FirstHits;
+pub(crate) use hit::{Hit, is_there, keep_nearer};
 pub use surface_point::{PointSource, SurfacePoint, VisibleSurfaces};

@@ -13,6 +13,7 @@ mod render;
 mod replay;
 mod reproduce;
 mod same_scene;
+mod shadow_buffer;
 mod trees;
 mod usage;
 mod validate;

@@ -6,6 +6,7 @@ mod curved;
 mod embree;
 mod random;
 mod runner;
+mod shadow_buffer;
 
 use lightbuffer::shadow::{
     Basis, Culling, ObjectCoherence, Resolution, TesterEntry, VolumeThreshold, find, testers,

@@ -8,7 +8,7 @@ mod hierarchy;
 
 use super::brute_force::{Batch, BruteForce};
 use super::precise::crossed_among;
-use super::{Basis, BuildInput, Counters, Crossings, ShadowTester, TesterEntry};
+use super::{Basis, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::curved::Shape;
@@ -23,6 +23,7 @@ use std::ops::Range;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "bounding-volumes",
     basis: Basis::Exact,
+    lights: Lights::All,
     build: &|input| Ok(Box::new(BoundingVolumes::new(input, InstructionSet::best()))),
     // In the worst case all triangles are one object, which every segment meets.
     expected_tests: |casters, queries| casters * queries,

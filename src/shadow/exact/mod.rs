@@ -27,7 +27,7 @@ mod traced;
 pub use integer::Meeting;
 pub use traced::Span;
 
-use super::{Basis, BuildInput, Counters, Crossings, ShadowTester, TesterEntry};
+use super::{Basis, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::{ExactPosition, LightPosition};
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
@@ -41,6 +41,7 @@ use query::Query;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "exact",
     basis: Basis::Truth,
+    lights: Lights::All,
     build: &|input| Ok(Box::new(Arbiter::new(input))),
     expected_tests: |_, queries| 100.0 * queries,
 };

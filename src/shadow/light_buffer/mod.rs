@@ -29,8 +29,8 @@ pub use audit::Audit;
 pub use occupancy::Occupancy;
 
 use super::{
-    Basis, BuildInput, Casters, Counters, Crossings, ObjectCoherence, Receivers, Resolution, ShadowTester,
-    TesterEntry,
+    Basis, BuildInput, Casters, Counters, Crossings, Lights, ObjectCoherence, Receivers, Resolution,
+    ShadowTester, TesterEntry,
 };
 use crate::error::{Error, Result};
 use crate::geometry::ExactPosition;
@@ -51,6 +51,7 @@ use transparent::TransparentLists;
 pub const ENTRY: TesterEntry = TesterEntry {
     name: "light-buffer",
     basis: Basis::Exact,
+    lights: Lights::All,
     build: &|input| Ok(Box::new(LightBuffer::new(input)?)),
     expected_tests: |_, queries| 10.0 * queries,
 };
