@@ -23,6 +23,7 @@
 //! | [`memory`] | the limit that is checked before memory is asked for |
 //! | [`measure`] | running and timing testers |
 //! | [`verdict`] | masks against the truth |
+//! | [`hard_cases`] | 47 small cases whose answers are known, for all testers |
 //! | [`report`] | JSON, tables, image channels |
 //! | [`cli`] | one file a command |
 //!
@@ -82,6 +83,7 @@ pub mod embree;
 pub mod error;
 pub mod film;
 pub mod geometry;
+pub mod hard_cases;
 pub mod measure;
 pub mod memory;
 pub mod report;

@@ -1,7 +1,7 @@
 //! Every tester over the queries of one light, against the arbiter.
 
 use super::{Cause, CauseCounts, TesterCounts, VerdictCounts};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::measure::{Question, Timed, answer, soft_light, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
 use crate::shadow::{Basis, BuildInput, Counters, Crossings, Queries, ShadowTester, TesterEntry};
@@ -87,6 +87,22 @@ pub fn judge(
     entries: &[&TesterEntry],
     progress: &dyn Progress,
 ) -> Result<LightVerdict> {
+    judge_known(input, queries, entries, None, &mut |_, error| Err(error), progress)
+}
+
+/// The same, and the arbiter too is held against answers that are known before, if there are such. A tester that
+/// reports an error is left out if `refused` takes that.
+///
+/// # Errors
+/// What `refused` returns.
+pub fn judge_known(
+    input: &BuildInput,
+    queries: &Queries,
+    entries: &[&TesterEntry],
+    known: Option<&[bool]>,
+    refused: &mut dyn FnMut(&'static str, Error) -> Result<()>,
+    progress: &dyn Progress,
+) -> Result<LightVerdict> {
     let points = &queries.points;
     let mut testers = Vec::new();
     progress.stage("exact");
@@ -101,7 +117,8 @@ pub fn judge(
             })
             .collect::<Vec<_>>()
     });
-    let truth: Vec<bool> = decided.value.iter().map(|t| t.occlusion == Occlusion::Occluded).collect();
+    let answers: Vec<bool> = decided.value.iter().map(|t| t.occlusion == Occlusion::Occluded).collect();
+    let truth = known.map_or_else(|| answers.clone(), <[bool]>::to_vec);
     let crossed = match Question::of(input.scene) {
         Question::Occlusion => None,
         Question::OcclusionAndCrossings => Some(crossings_of(&arbiter.value, points, &truth)?),
@@ -109,11 +126,14 @@ pub fn judge(
     let touching: Vec<bool> = decided.value.iter().map(|t| t.contact == Contact::Touching).collect();
     for entry in entries {
         let (run, tester) = match entry.basis {
-            Basis::Truth => (truth_run(entry, &arbiter, &truth, crossed.as_ref(), decided.seconds), None),
-            _ => {
-                let (run, tester) = ask(entry, input, queries, progress)?;
-                (run, Some(tester))
-            }
+            Basis::Truth => (truth_run(entry, &arbiter, &answers, crossed.as_ref(), decided.seconds), None),
+            _ => match ask(entry, input, queries, progress) {
+                Ok((run, tester)) => (run, Some(tester)),
+                Err(error) => {
+                    refused(entry.name, error)?;
+                    continue;
+                }
+            },
         };
         let mut counts = TesterCounts::new(&run.occluded, &truth, run.counters.undecided);
         if let (Some(found), Some(crossed)) = (&run.crossings, &crossed) {
@@ -130,19 +150,19 @@ pub fn judge(
 fn truth_run(
     entry: &TesterEntry,
     arbiter: &Timed<Arbiter>,
-    truth: &[bool],
+    answers: &[bool],
     crossed: Option<&Crossings>,
     seconds: f64,
 ) -> TesterRun {
     TesterRun {
         name: entry.name,
         basis: entry.basis,
-        occluded: truth.to_vec(),
+        occluded: answers.to_vec(),
         crossings: crossed.cloned(),
         soft_light: None,
         counters: Counters::default(),
         build_seconds: arbiter.seconds,
-        ns_per_query: per_query(seconds, truth.len()),
+        ns_per_query: per_query(seconds, answers.len()),
         bytes: arbiter.value.bytes(),
         statistics: Vec::new(),
     }

@@ -11,5 +11,5 @@ pub use cause::{Cause, CauseCounts};
 pub use check::{ArbiterCheck, check_arbiter};
 pub use counts::{TesterCounts, VerdictCounts};
 pub use edges::{EdgeCounts, ShadowEdges};
-pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, run_tester};
+pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, judge_known, run_tester};
 pub use maps::PixelVerdict;
