@@ -5,6 +5,7 @@
 
 mod counts;
 mod generate;
+mod hard_cases;
 mod info;
 mod options;
 mod output;

@@ -1,6 +1,7 @@
 //! `lightbuffer validate`: every tester against the truth.
 
 use super::Outcome;
+use super::hard_cases;
 use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages};
 use super::testers::{TesterOptions, expect_lights};
@@ -23,24 +24,24 @@ const MOST_TESTS: f64 = 2e11;
 #[command(after_long_help = CHANNELS)]
 pub struct Args {
     #[command(flatten)]
-    view: ViewOptions,
+    pub(super) view: ViewOptions,
     #[command(flatten)]
-    lights: LightOptions,
+    pub(super) lights: LightOptions,
     #[command(flatten)]
-    trees: TreeOptions,
+    pub(super) trees: TreeOptions,
     /// Folder for validate.json, image.exr and the PNG maps; created if need be
     #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    pub(super) output: PathBuf,
     #[command(flatten)]
-    testers: TesterOptions,
+    pub(super) testers: TesterOptions,
     /// Check the arbiter on N queries a light against all triangles in exact integers
     #[arg(long, value_name = "N", default_value_t = 0)]
-    check_arbiter: usize,
+    pub(super) check_arbiter: usize,
     /// Copy of validate.json; - is standard output instead of the table
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    pub(super) json: Option<PathBuf>,
     #[command(flatten)]
-    run: RunOptions,
+    pub(super) run: RunOptions,
 }
 
 /// The channels of image.exr, for `--help`.
@@ -57,7 +58,10 @@ Channels of the OpenEXR file beside R G B A, Z, P.*, N.*, albedo.* and id.object
 pub fn run(args: &Args) -> Result<Outcome> {
     let messages = Messages::new(args.run.quiet);
     let entries = args.testers.choose(messages)?;
-    args.run.pool()?.install(|| validate(args, &entries, messages))
+    args.run.pool()?.install(|| match hard_cases::are_meant(&args.view.scene) {
+        true => hard_cases::validate(args, &entries, messages),
+        false => validate(args, &entries, messages),
+    })
 }
 
 fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
@@ -84,6 +88,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         embree: embree_facts(threads, args.run.embree_epsilon, messages)?,
         skipped: Vec::new(),
         lights: Vec::new(),
+        cases: Vec::new(),
         totals: Totals::default(),
     };
     let mut judged = Vec::new();

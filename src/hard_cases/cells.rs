@@ -1,7 +1,8 @@
 //! Cases of cell look-up and lists: directions on the borders of cells and faces.
 
 use super::parts::{
-    STILL_LIGHT, TINY, bare, lid, neighbours, seen, soup, square, steps, still_life, still_points, triangles, v,
+    STILL_LIGHT, TINY, bare, lid, neighbours, seen, soup, square, steps, still_life, still_points, triangles,
+    v,
 };
 use super::{Expected, HardCase, Situation};
 use glam::Vec3;
@@ -55,11 +56,11 @@ fn two_faces() -> Vec<Situation> {
         inwards: tip,
     };
     // The sheet ends at the border of the faces itself, or across it.
-    let across: Vec<_> =
-        twelve().map(|(a, b, third)| (a + b, sheet(-third, a - b, a + b))).collect();
+    let across: Vec<_> = twelve().map(|(a, b, third)| (a + b, sheet(-third, a - b, a + b))).collect();
     let along: Vec<_> = twelve().map(|(a, b, third)| (a + b, sheet(a - b, third, a + b))).collect();
     let before = twelve().flat_map(|(a, b, _)| neighbours(0.5 * (a + b))).collect::<Vec<_>>();
-    let lit = Situation { points: bare(before), ..behind_half_sheets("before the sheets", Vec3::ZERO, &across) };
+    let lit =
+        Situation { points: bare(before), ..behind_half_sheets("before the sheets", Vec3::ZERO, &across) };
     let off = v(0.5, -0.25, 0.125);
     vec![
         behind_half_sheets("sheets that end across the border", Vec3::ZERO, &across),
@@ -103,12 +104,8 @@ fn three_faces() -> Vec<Situation> {
 }
 
 fn cell_borders() -> Vec<Situation> {
-    let borders = [
-        (1, vec![-1, 1]),
-        (3, vec![-3, -1, 1]),
-        (512, vec![-512, 0, 2, 510]),
-        (4096, vec![-4096, 0, 4094]),
-    ];
+    let borders =
+        [(1, vec![-1, 1]), (3, vec![-3, -1, 1]), (512, vec![-512, 0, 2, 510]), (4096, vec![-4096, 0, 4094])];
     borders.into_iter().flat_map(|(r, borders)| borders.into_iter().map(move |k| cell_border(r, k))).collect()
 }
 
@@ -162,8 +159,20 @@ fn axes() -> Vec<Situation> {
     let fans = triangles(&six().flat_map(fan).collect::<Vec<_>>());
     let halves = triangles(&six().map(half).collect::<Vec<_>>());
     vec![
-        Situation::new("four triangles that meet there", fans.clone(), Vec3::ZERO, bare(points()), Expected::AllDark),
-        Situation::new("the light at minus zero", fans, v(-0.0, 0.0, -0.0), bare(points()), Expected::AllDark),
+        Situation::new(
+            "four triangles that meet there",
+            fans.clone(),
+            Vec3::ZERO,
+            bare(points()),
+            Expected::AllDark,
+        ),
+        Situation::new(
+            "the light at minus zero",
+            fans,
+            v(-0.0, 0.0, -0.0),
+            bare(points()),
+            Expected::AllDark,
+        ),
         Situation::new("a sheet that ends there", halves, Vec3::ZERO, bare(points()), Expected::Known(dark)),
     ]
 }
@@ -183,7 +192,10 @@ fn grazed_light() -> Vec<Situation> {
 }
 
 fn edge_on_and_small() -> Vec<Situation> {
-    let edge_on = [[v(1.0, 0.0, -1.0), v(1.0, 0.0, 1.0), v(3.0, 0.0, 0.0)], [v(0.0, 1.0, 1.0), v(0.0, 2.0, 2.0), v(0.0, 3.0, 1.0)]];
+    let edge_on = [
+        [v(1.0, 0.0, -1.0), v(1.0, 0.0, 1.0), v(3.0, 0.0, 0.0)],
+        [v(0.0, 1.0, 1.0), v(0.0, 2.0, 2.0), v(0.0, 3.0, 1.0)],
+    ];
     let around = || steps(-6, 6).flat_map(|x| steps(-6, 6).map(move |z| v(x, 0.0, 0.5 * z)));
     let across = || around().map(|p| v(p.y, 0.75 * p.x, 0.75 * p.x + 0.25 * p.z));
     let points = bare(around().chain(across()).flat_map(|p| [p, p + v(TINY, TINY, 0.0)]));
@@ -202,7 +214,13 @@ fn edge_on_and_small() -> Vec<Situation> {
         dark.push(inside);
     }
     vec![
-        Situation::new("planes that hold the light", triangles(&edge_on), Vec3::ZERO, points, Expected::AllLit),
+        Situation::new(
+            "planes that hold the light",
+            triangles(&edge_on),
+            Vec3::ZERO,
+            points,
+            Expected::AllLit,
+        ),
         Situation::new("1e-4 wide", triangles(&[small(at)]), Vec3::ZERO, bare(below), Expected::Known(dark)),
     ]
 }

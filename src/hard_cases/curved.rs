@@ -17,7 +17,16 @@ fn touched_sphere() -> Vec<Situation> {
     let sun = LightPosition::Towards(Vec3::Y);
     let sphere = with_curved(&[], &[Shape::sphere(v(0.0, 2.0, 0.0), 5.0)]);
     // Whole numbers on the circle that the sun's rays touch.
-    let circle = [(5.0, 0.0), (-5.0, 0.0), (0.0, 5.0), (0.0, -5.0), (3.0, 4.0), (-3.0, 4.0), (4.0, -3.0), (-4.0, -3.0)];
+    let circle = [
+        (5.0, 0.0),
+        (-5.0, 0.0),
+        (0.0, 5.0),
+        (0.0, -5.0),
+        (3.0, 4.0),
+        (-3.0, 4.0),
+        (4.0, -3.0),
+        (-4.0, -3.0),
+    ];
     let (mut points, mut dark) = (Vec::new(), Vec::new());
     for point in circle.into_iter().flat_map(|(x, z)| neighbours(v(x, -6.0, z))) {
         // Squares of 24 bits are exact, and so is what the larger one lacks to 25.
@@ -28,7 +37,8 @@ fn touched_sphere() -> Vec<Situation> {
     let lamp = v(5.0, 8.0, 0.0);
     let line = [5.0f32.next_down(), 5.0, 5.0f32.next_up()];
     // A lamp straight above the touched point: the ray touches, or tips over to one side.
-    let under: Vec<_> = line.iter().flat_map(|&x| [v(x, -4.0, 0.0), v(x, -100.0, 0.0), v(x, 1.0, 0.0)]).collect();
+    let under: Vec<_> =
+        line.iter().flat_map(|&x| [v(x, -4.0, 0.0), v(x, -100.0, 0.0), v(x, 1.0, 0.0)]).collect();
     let tipped = under.iter().map(|p| p.x <= 5.0).collect();
     vec![
         Situation::new("under a sun", sphere.clone(), sun, bare(points), Expected::Known(dark)),
@@ -40,7 +50,16 @@ fn small_and_large() -> Vec<Situation> {
     let bead = with_curved(&[], &[Shape::sphere(Vec3::ZERO, 1e-4)]);
     let lamp = v(0.0, 1e4, 0.0);
     // The ray to a point at x passes the bead's middle at half of it.
-    let places = [(0.0, true), (1e-4, true), (1.9e-4, true), (1.999e-4, true), (2.001e-4, false), (2.1e-4, false), (1e-2, false), (30.0, false)];
+    let places = [
+        (0.0, true),
+        (1e-4, true),
+        (1.9e-4, true),
+        (1.999e-4, true),
+        (2.001e-4, false),
+        (2.1e-4, false),
+        (1e-2, false),
+        (30.0, false),
+    ];
     let (mut points, mut dark) = (Vec::new(), Vec::new());
     for (x, inside) in places.into_iter().flat_map(|(x, inside)| [(x, inside), (-x, inside)]) {
         points.extend([v(x, -1e4, 0.0), v(0.0, -1e4, x)]);
@@ -51,8 +70,15 @@ fn small_and_large() -> Vec<Situation> {
     let eye = v(1.0, 3.0, 2.0);
     let bald = with_curved(&[], &[ground]);
     let on_bald = seen(&bald, eye, places());
-    let far = seen(&bald, v(0.0, 100.0, 0.0), steps(-8, 8).flat_map(|x| steps(-8, 8).map(move |z| v(100.0 * x, 0.0, 90.0 * z))));
-    let built = with_curved(&cuboid(v(-0.5, -0.25, -0.5), v(0.5, 1.0, 0.5)), &[ground, Shape::sphere(v(1.5, 0.75, 0.0), 0.5)]);
+    let far = seen(
+        &bald,
+        v(0.0, 100.0, 0.0),
+        steps(-8, 8).flat_map(|x| steps(-8, 8).map(move |z| v(100.0 * x, 0.0, 90.0 * z))),
+    );
+    let built = with_curved(
+        &cuboid(v(-0.5, -0.25, -0.5), v(0.5, 1.0, 0.5)),
+        &[ground, Shape::sphere(v(1.5, 0.75, 0.0), 0.5)],
+    );
     let on_built = seen(&built, eye, places());
     vec![
         Situation::new("a bead", bead, lamp, bare(points), Expected::Known(dark)),
@@ -106,7 +132,11 @@ fn cones() -> Vec<Situation> {
     let sun = LightPosition::Towards(Vec3::Y);
     let radii = [0.999_999_9, 1.0, 1.000_000_1, 1.000_000_05, 0.5, 2.0];
     let straight = radii.into_iter().flat_map(|x| [v(x, -1.0, 0.0), v(0.0, -1.0, -x)]);
-    let none = [Shape::sphere(v(0.0, 1.0, 0.0), 0.0), Shape::cone(Vec3::ZERO, 0.0, top, 0.0), Shape::cylinder(top, top, 1.0)];
+    let none = [
+        Shape::sphere(v(0.0, 1.0, 0.0), 0.0),
+        Shape::cone(Vec3::ZERO, 0.0, top, 0.0),
+        Shape::cylinder(top, top, 1.0),
+    ];
     let nothing = with_curved(&[], &none);
     let below = || steps(-4, 4).flat_map(|x| steps(-4, 4).map(move |z| v(0.25 * x, -1.0, 0.25 * z)));
     vec![
@@ -114,7 +144,13 @@ fn cones() -> Vec<Situation> {
         // Its own double root: a touch.
         Situation::new("the apex itself", pointed(), light, bare([behind(top, light)]), Expected::AllDark),
         Situation::new("through the walls", pointed(), wide, bare(through), Expected::AllDark),
-        Situation::new("radii that differ by 1e-7, a lamp", almost.clone(), light, bare(around), Expected::AsTruth),
+        Situation::new(
+            "radii that differ by 1e-7, a lamp",
+            almost.clone(),
+            light,
+            bare(around),
+            Expected::AsTruth,
+        ),
         Situation::new("radii that differ by 1e-7, a sun", almost, sun, bare(straight), Expected::AsTruth),
         Situation::new("radii of zero", nothing, light, bare(below()), Expected::AllLit),
     ]

@@ -23,18 +23,30 @@ fn integer_grid() -> Vec<Situation> {
     for (name, mesh) in [("flat", grid(8, flat)), ("bumpy", grid(8, bumpy))] {
         // Corners, middles and quarters of all edges: each is on two triangles or more.
         let on_edges = mesh.iter().flat_map(|&[a, b, c]| {
-            [(a, b), (b, c), (c, a)].into_iter().flat_map(|(a, b)| {
-                [a, 0.5 * (a + b), 0.75 * a + 0.25 * b].map(|p| behind(p, light))
-            })
+            [(a, b), (b, c), (c, a)]
+                .into_iter()
+                .flat_map(|(a, b)| [a, 0.5 * (a + b), 0.75 * a + 0.25 * b].map(|p| behind(p, light)))
         });
         let scene = triangles(&mesh);
         let points = bare(on_edges);
-        situations.push(Situation::new(format!("{name}, on the edges"), scene.clone(), light, points, Expected::AllDark));
+        situations.push(Situation::new(
+            format!("{name}, on the edges"),
+            scene.clone(),
+            light,
+            points,
+            Expected::AllDark,
+        ));
         // Within the grid one ulp off an edge is on its other side.
         let inside = mesh.iter().map(|&[a, b, _]| 0.5 * (a + b));
         let inside = inside.filter(|p| p.x > 0.0 && p.x < 8.0 && p.z > 0.0 && p.z < 8.0);
         let off = inside.flat_map(|p| neighbours(behind(p, light)));
-        situations.push(Situation::new(format!("{name}, one ulp off"), scene, light, bare(off), Expected::AllDark));
+        situations.push(Situation::new(
+            format!("{name}, one ulp off"),
+            scene,
+            light,
+            bare(off),
+            Expected::AllDark,
+        ));
     }
     situations
 }
@@ -59,8 +71,16 @@ fn valences() -> Vec<Situation> {
         situations.push(Situation::new(name.clone(), scene.clone(), light, bare(at_tip), Expected::AllDark));
         // Along the edges from the tip to the rim, and at its corners, where coordinates are rounded.
         let some = mesh.iter().step_by(1 + valence as usize / 16);
-        let along = some.flat_map(|&[tip, b, c]| [b, 0.5 * (tip + b), 0.5 * (b + c)]).flat_map(|p| neighbours(behind(p, light)).step_by(2));
-        situations.push(Situation::new(format!("{name}, its edges"), scene, light, bare(along), Expected::AsTruth));
+        let along = some
+            .flat_map(|&[tip, b, c]| [b, 0.5 * (tip + b), 0.5 * (b + c)])
+            .flat_map(|p| neighbours(behind(p, light)).step_by(2));
+        situations.push(Situation::new(
+            format!("{name}, its edges"),
+            scene,
+            light,
+            bare(along),
+            Expected::AsTruth,
+        ));
     }
     situations
 }
@@ -70,12 +90,14 @@ fn silhouettes() -> Vec<Situation> {
     let edge = [2.0f32.next_down(), 2.0, 2.0f32.next_up(), 1.0, 0.0];
     let signed = edge.into_iter().flat_map(|x| [x, -x]).collect::<Vec<_>>();
     let places = || signed.iter().flat_map(|&x| signed.iter().map(move |&z| v(x, 0.0, z)));
-    let dark = |reach: f32| Expected::Known(places().map(|p| p.x.abs() <= reach && p.z.abs() <= reach).collect());
+    let dark =
+        |reach: f32| Expected::Known(places().map(|p| p.x.abs() <= reach && p.z.abs() <= reach).collect());
     let halved = places().map(|p| v(0.5 * p.x, 0.0, 0.5 * p.z));
     let sun = LightPosition::Towards(Vec3::Y);
     let aslant = LightPosition::Towards(v(1.0, 2.0, -1.0));
     // Under the slanting sun the shadow is moved by (-1, 1); whole and half steps stay exact.
-    let moved: Vec<_> = steps(-8, 8).flat_map(|x| steps(-8, 8).map(move |z| v(0.25 * x, 0.0, 0.25 * z))).collect();
+    let moved: Vec<_> =
+        steps(-8, 8).flat_map(|x| steps(-8, 8).map(move |z| v(0.25 * x, 0.0, 0.25 * z))).collect();
     let in_moved = moved.iter().map(|p| (p.x + 1.0).abs() <= 1.0 && (p.z - 1.0).abs() <= 1.0).collect();
     vec![
         Situation::new("a lamp above it", sheet(), v(0.0, 4.0, 0.0), bare(places()), dark(2.0)),
@@ -95,14 +117,27 @@ fn grazed_sliver() -> Vec<Situation> {
         let sliver = [v(0.0, 0.0, 0.0), v(11.2, 0.3, 0.0), v(9.68, 0.28, 0.33)].map(place);
         let scene = triangles(&[sliver]);
         let light = place(v(-540.0, 4.9 - 14.4, 3.1));
-        let near = steps(-6, 6).flat_map(|i| steps(-6, 6).map(move |k| v(320.0 + i, 5.5 + 0.1 * k, 0.02 * i * k - 1.7)));
+        let near = steps(-6, 6)
+            .flat_map(|i| steps(-6, 6).map(move |k| v(320.0 + i, 5.5 + 0.1 * k, 0.02 * i * k - 1.7)));
         let beyond = steps(-20, 20).map(|i| v(14.0 + 0.01 * i, 0.02 * i, 0.013 * i));
         let points = bare(near.chain(beyond).map(place));
-        situations.push(Situation::new(format!("turned {turn} times"), scene.clone(), light, points, Expected::AsTruth));
+        situations.push(Situation::new(
+            format!("turned {turn} times"),
+            scene.clone(),
+            light,
+            points,
+            Expected::AsTruth,
+        ));
         // Nothing of it reaches so far to the side.
         let aside = steps(1, 12).flat_map(|i| [v(300.0, 7.0, 40.0 * i), v(300.0, 7.0, -40.0 * i)]);
         let lit = bare(aside.map(place));
-        situations.push(Situation::new(format!("turned {turn} times, aside"), scene, light, lit, Expected::AllLit));
+        situations.push(Situation::new(
+            format!("turned {turn} times, aside"),
+            scene,
+            light,
+            lit,
+            Expected::AllLit,
+        ));
     }
     situations
 }
@@ -122,8 +157,20 @@ fn missed_sliver() -> Vec<Situation> {
             near.push(a - 2.0 * along + v(0.0, width * 0.05 * i, 1e-9 * i));
             near.push(a + 0.1 * i * along + v(1e-8 * i, width, 0.0));
         }
-        situations.push(Situation::new(format!("{width:e} wide, beyond it"), scene.clone(), light, bare(far), Expected::AllLit));
-        situations.push(Situation::new(format!("{width:e} wide, along it"), scene, light, bare(near), Expected::AsTruth));
+        situations.push(Situation::new(
+            format!("{width:e} wide, beyond it"),
+            scene.clone(),
+            light,
+            bare(far),
+            Expected::AllLit,
+        ));
+        situations.push(Situation::new(
+            format!("{width:e} wide, along it"),
+            scene,
+            light,
+            bare(near),
+            Expected::AsTruth,
+        ));
     }
     situations
 }
@@ -136,14 +183,16 @@ fn needle() -> Vec<Situation> {
     // How far the needle reaches across at each place along it.
     for (x, reach) in [(0.0, 0.0), (0.25, 0.5 * width), (0.5, width), (0.75, 0.5 * width), (1.0, 0.0)] {
         let outside = [-1e-3, -width, 0.0f32.next_down(), reach.next_up(), 2.0 * width, 1e-6];
-        let across = outside.map(|z| (z, false)).into_iter().chain([(0.0, true), (reach, true), (0.5 * reach, true)]);
+        let across =
+            outside.map(|z| (z, false)).into_iter().chain([(0.0, true), (reach, true), (0.5 * reach, true)]);
         for (z, inside) in across {
             points.push(behind(v(x, 1.0, z), light));
             dark.push(inside);
         }
     }
     let side = v(-1.5, 1.25, 0.25);
-    let around = steps(-9, 9).flat_map(|i| [0.0, width, 3.0 * width].map(|z| behind(v(0.1 * i, 1.0, z), side)));
+    let around =
+        steps(-9, 9).flat_map(|i| [0.0, width, 3.0 * width].map(|z| behind(v(0.1 * i, 1.0, z), side)));
     vec![
         Situation::new("straight above", scene.clone(), light, bare(points), Expected::Known(dark)),
         Situation::new("from its end", scene, side, bare(around), Expected::AsTruth),
@@ -163,6 +212,12 @@ fn zero_area() -> Vec<Situation> {
     let alone = triangles(&none);
     vec![
         Situation::new("alone", alone, light, bare(through()), Expected::AllLit),
-        Situation::new("between halves of a square", triangles(&sealed), light, bare(through()), Expected::AllDark),
+        Situation::new(
+            "between halves of a square",
+            triangles(&sealed),
+            light,
+            bare(through()),
+            Expected::AllDark,
+        ),
     ]
 }

@@ -36,7 +36,8 @@ fn contact() -> Vec<Situation> {
     for (name, low) in [("0", 1.0), ("1 ulp", 1.0f32.next_up()), ("1e-6", 1.0 + 1e-6), ("1e-3", 1.001)] {
         let scene = soup(&[floor(1.0), cuboid(v(0.0, low, 0.0), v(1.0, 2.0, 1.0))]);
         // Where the box stands, from where the widest gap lets no light in, and behind it without a gap.
-        let depths = [0.01, 0.25, 0.5, 0.999, 1.0f32.next_down(), 1.0, 1.0f32.next_up(), 1.000_001, 1.0001, 1.25];
+        let depths =
+            [0.01, 0.25, 0.5, 0.999, 1.0f32.next_down(), 1.0, 1.0f32.next_up(), 1.000_001, 1.0001, 1.25];
         let under = || depths.into_iter().flat_map(|x| [0.125, 0.25, 0.5, 0.75].map(|z| (x, z)));
         let dark = on_floor(&scene, 1.0, under());
         let title = |what: &str| format!("gap of {name}, {what}");
@@ -47,8 +48,10 @@ fn contact() -> Vec<Situation> {
         situations.push(Situation::new(title("before it"), scene.clone(), light, lit, Expected::AllLit));
         // The walls that face the light, down to the contact line, and the top.
         let heights = [1.0011f32, 1.25, 1.5, 1.999];
-        let wall = heights.into_iter().flat_map(|y| steps(0, 8).map(move |z| (v(-1.0, y, 0.125 * z), Vec3::X)));
-        let top = steps(0, 8).flat_map(|x| steps(0, 8).map(move |z| (v(0.125 * x, 3.0, 0.125 * z), Vec3::NEG_Y)));
+        let wall =
+            heights.into_iter().flat_map(|y| steps(0, 8).map(move |z| (v(-1.0, y, 0.125 * z), Vec3::X)));
+        let top =
+            steps(0, 8).flat_map(|x| steps(0, 8).map(move |z| (v(0.125 * x, 3.0, 0.125 * z), Vec3::NEG_Y)));
         let walls = rays(&scene, wall.chain(top).filter(|(origin, _)| origin.z > 0.0 && origin.z < 1.0));
         situations.push(Situation::new(title("on it"), scene, light, walls, Expected::AllLit));
     }
@@ -58,7 +61,8 @@ fn contact() -> Vec<Situation> {
 fn grazing() -> Vec<Situation> {
     let wide: Corners = [v(-5000.0, 0.0, -5000.0), v(5000.0, 0.0, -5000.0), v(0.0, 0.0, 5000.0)];
     let light = v(-5000.0, 0.872_664, -4000.0);
-    let places = || steps(-40, 40).map(|i| (90.0 * i, 10.0 * i - 3000.0)).chain(steps(1, 9).map(|i| (0.1 * i, i)));
+    let places =
+        || steps(-40, 40).map(|i| (90.0 * i, 10.0 * i - 3000.0)).chain(steps(1, 9).map(|i| (0.1 * i, i)));
     let alone = triangles(&[wide]);
     let points = on_floor(&alone, 0.0, places());
     // A wall across the way, whose shadow ends where the ray over its top comes down.
@@ -84,7 +88,8 @@ fn convex_edge() -> Vec<Situation> {
     let near = [1e-30f32, 1e-6, 1e-3, 0.1, 1.0, 4.0].into_iter().flat_map(|x| [x, -x]);
     let places = near.flat_map(|x| steps(-4, 4).map(move |z| v(x, 0.0, z)));
     let points = seen(&scene, v(0.5, 7.0, 0.25), places);
-    let lights = [v(-5.0, 3.0, 0.2), v(-50.0, 1e-4, 0.0), v(-50.0, 6e-5, 3.0), v(0.0, 1e-7, 0.0), v(9.0, 1e5, -9.0)];
+    let lights =
+        [v(-5.0, 3.0, 0.2), v(-50.0, 1e-4, 0.0), v(-50.0, 6e-5, 3.0), v(0.0, 1e-7, 0.0), v(9.0, 1e5, -9.0)];
     let lit = |light: Vec3| {
         Situation::new(format!("from {light}"), scene.clone(), light, points.clone(), Expected::AllLit)
     };
@@ -95,7 +100,9 @@ fn nested_spheres() -> Vec<Situation> {
     let outer_radius = 1.0 + 4e-5;
     let inner = ball(DVec3::ZERO, 1.0, 10);
     let light = v(3.0, 5.0, 2.0);
-    let directions = || steps(-5, 5).flat_map(|x| steps(-5, 5).map(move |z| v(0.19 * x + 0.01, 0.07 * x * z * 0.2, 0.17 * z)));
+    let directions = || {
+        steps(-5, 5).flat_map(|x| steps(-5, 5).map(move |z| v(0.19 * x + 0.01, 0.07 * x * z * 0.2, 0.17 * z)))
+    };
     let eye = v(2.0, 4.0, 1.0);
     // The inner one is the first object of both scenes, so that its primitives have the same numbers.
     let alone = triangles(&inner);
@@ -117,7 +124,10 @@ fn nested_spheres() -> Vec<Situation> {
 
 fn doubled_receiver() -> Vec<Situation> {
     // Copies in other cuts lie in the same plane and do not block either.
-    let cut = [[v(-2.0, 1.0, -2.0), v(2.0, 1.0, -2.0), v(0.5, 1.0, 2.0)], [v(-1.0, 1.0, 2.0), v(1.0, 1.0, 2.0), v(0.0, 1.0, -1.0)]];
+    let cut = [
+        [v(-2.0, 1.0, -2.0), v(2.0, 1.0, -2.0), v(0.5, 1.0, 2.0)],
+        [v(-1.0, 1.0, 2.0), v(1.0, 1.0, 2.0), v(0.0, 1.0, -1.0)],
+    ];
     let flat: Vec<Corners> = both_sides(&square(1.0, 1.0)).into_iter().chain(both_sides(&cut)).collect();
     let tilt = |p: Vec3| v(p.x, p.y + 0.3 * p.x - 0.7 * p.z, p.z);
     let tilted: Vec<Corners> = both_sides(&[square(1.0, 1.0)[0].map(tilt)]);
@@ -132,11 +142,23 @@ fn doubled_receiver() -> Vec<Situation> {
         }
         let straight = Vec3::NEG_Y;
         let from_below = rays(&scene, places().map(|p| (p - 5.0 * Vec3::Y, Vec3::Y)));
-        let below = Situation::new(format!("{name}, from below"), scene, 9.0 * straight, from_below, Expected::AllLit);
+        let below = Situation::new(
+            format!("{name}, from below"),
+            scene,
+            9.0 * straight,
+            from_below,
+            Expected::AllLit,
+        );
         situations.push(below);
     }
     let exact = triangles(&both_sides(&square(1.0, 1.0)));
-    situations.push(Situation::new("bare points on it", exact, v(0.25, 3.0, 0.0), bare(places()), Expected::AllLit));
+    situations.push(Situation::new(
+        "bare points on it",
+        exact,
+        v(0.25, 3.0, 0.0),
+        bare(places()),
+        Expected::AllLit,
+    ));
     situations
 }
 

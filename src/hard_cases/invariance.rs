@@ -1,6 +1,8 @@
 //! Cases of transparent layers, and of orders that must not matter.
 
-use super::parts::{Corners, STILL_LIGHT, bare, soup, square, steps, still_life, still_points, v, with_glass};
+use super::parts::{
+    Corners, STILL_LIGHT, bare, soup, square, steps, still_life, still_points, v, with_glass,
+};
 use super::{Expected, HardCase, Situation};
 use glam::Vec3;
 
@@ -27,7 +29,8 @@ fn layers() -> Vec<Situation> {
     let stack = stack(64);
     let reversed: Vec<_> = stack.iter().rev().cloned().collect();
     let shuffled: Vec<_> = (0..64).map(|i| stack[i * 27 % 64].clone()).collect();
-    let turned: Vec<_> = stack.iter().map(|layer| layer.iter().rev().map(|&[a, b, c]| [b, c, a]).collect()).collect();
+    let turned: Vec<_> =
+        stack.iter().map(|layer| layer.iter().rev().map(|&[a, b, c]| [b, c, a]).collect()).collect();
     let situation = |name: &str, layers: &[Vec<Corners>]| {
         let points = bare(below());
         let times = vec![64; points.len()];
@@ -39,8 +42,14 @@ fn layers() -> Vec<Situation> {
         situation("from above downwards", &reversed),
         situation("shuffled", &shuffled),
         situation("their triangles turned", &turned),
-        Situation::new("beside and between them", with_glass(&stack, 0.9, &[]), LAMP, beside, Expected::AllLit)
-            .crossing(vec![0, 0, 0, 4]),
+        Situation::new(
+            "beside and between them",
+            with_glass(&stack, 0.9, &[]),
+            LAMP,
+            beside,
+            Expected::AllLit,
+        )
+        .crossing(vec![0, 0, 0, 4]),
     ]
 }
 
@@ -51,18 +60,23 @@ fn opaque_behind() -> Vec<Situation> {
         let times = vec![0; situation.points.len()];
         situation.crossing(times)
     };
-    let mut situations: Vec<_> = [("below them", 0.5), ("between them", 4.5), ("above them", 9.0), ("in the place of one", 4.0)]
-        .map(|(name, y)| none(Situation::new(name, covered(y), LAMP, bare(below()), Expected::AllDark)))
-        .into();
+    let mut situations: Vec<_> =
+        [("below them", 0.5), ("between them", 4.5), ("above them", 9.0), ("in the place of one", 4.0)]
+            .map(|(name, y)| none(Situation::new(name, covered(y), LAMP, bare(below()), Expected::AllDark)))
+            .into();
     let aside = bare([v(0.0, 0.75, 0.0), v(0.25, 0.75, -0.5)]);
-    situations.push(Situation::new("behind the point", covered(0.5), LAMP, aside, Expected::AllLit).crossing(vec![8; 2]));
+    situations.push(
+        Situation::new("behind the point", covered(0.5), LAMP, aside, Expected::AllLit).crossing(vec![8; 2]),
+    );
     situations
 }
 
 fn orders() -> Vec<Situation> {
     let whole = still_life();
-    let rotated: Vec<Vec<Corners>> = whole.iter().map(|part| part.iter().map(|&[a, b, c]| [b, c, a]).collect()).collect();
-    let reversed: Vec<Vec<Corners>> = whole.iter().rev().map(|part| part.iter().rev().copied().collect()).collect();
+    let rotated: Vec<Vec<Corners>> =
+        whole.iter().map(|part| part.iter().map(|&[a, b, c]| [b, c, a]).collect()).collect();
+    let reversed: Vec<Vec<Corners>> =
+        whole.iter().rev().map(|part| part.iter().rev().copied().collect()).collect();
     let shuffled: Vec<Vec<Corners>> = whole
         .iter()
         .map(|part| {

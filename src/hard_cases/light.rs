@@ -40,18 +40,36 @@ fn in_a_plane() -> Vec<Situation> {
 fn on_a_surface() -> Vec<Situation> {
     let sheet = triangles(&square(1.0, 1.0));
     let heights = [-1.0, 0.5, 1.0f32.next_down(), 1.0f32.next_up(), 2.0];
-    let places = [("a vertex", 1.0, 1.0), ("an edge", 1.0, 0.25), ("the diagonal", 0.5, 0.5), ("a face", 0.25, -0.125)];
+    let places = [
+        ("a vertex", 1.0, 1.0),
+        ("an edge", 1.0, 0.25),
+        ("the diagonal", 0.5, 0.5),
+        ("a face", 0.25, -0.125),
+    ];
     let mut situations = Vec::new();
     for (name, x, z) in places {
         let (light, points) = (v(x, 1.0, z), bare(heights.into_iter().flat_map(around)));
         // A light on a sheet lights both sides of it.
-        let on_sheet = Situation::new(format!("{name} of a sheet"), sheet.clone(), light, points, Expected::AllLit);
+        let on_sheet =
+            Situation::new(format!("{name} of a sheet"), sheet.clone(), light, points, Expected::AllLit);
         situations.push(on_sheet);
         let cube = triangles(&cuboid(v(-1.0, 0.0, -1.0), v(1.0, 1.0, 1.0)));
         let above = bare([1.0f32.next_up(), 1.5, 9.0].into_iter().flat_map(around));
-        situations.push(Situation::new(format!("{name}, above a box"), cube.clone(), light, above, Expected::AllLit));
+        situations.push(Situation::new(
+            format!("{name}, above a box"),
+            cube.clone(),
+            light,
+            above,
+            Expected::AllLit,
+        ));
         let below = bare(around(-0.5).filter(|p| p.x.abs() < 1.0 && p.z.abs() < 1.0));
-        situations.push(Situation::new(format!("{name}, below a box"), cube, light, below, Expected::AllDark));
+        situations.push(Situation::new(
+            format!("{name}, below a box"),
+            cube,
+            light,
+            below,
+            Expected::AllDark,
+        ));
     }
     situations
 }
@@ -59,20 +77,31 @@ fn on_a_surface() -> Vec<Situation> {
 fn inside() -> Vec<Situation> {
     let mesh = ball(DVec3::ZERO, 2.0, 12);
     let mut situations = Vec::new();
-    for (name, light) in [("in the middle", Vec3::ZERO), ("near the wall", v(0.0, 1.875, 0.0)), ("anywhere", v(0.3, -0.7, 0.9))] {
+    for (name, light) in [
+        ("in the middle", Vec3::ZERO),
+        ("near the wall", v(0.0, 1.875, 0.0)),
+        ("anywhere", v(0.3, -0.7, 0.9)),
+    ] {
         let corners = || mesh.iter().flat_map(|&[a, b, c]| [a, 0.5 * (a + b), (a + b + c) / 3.0]);
         let outside = corners().map(|p| light + 1.5 * (p - light)).filter(|p| p.length() > 2.125);
         let far = corners().map(|p| 1e6 * p);
         let within = corners().map(|p| 0.5 * p);
         let scene = triangles(&mesh);
         let outside = bare(outside.chain(far).step_by(3));
-        situations.push(Situation::new(format!("{name}, outside"), scene.clone(), light, outside, Expected::AllDark));
+        situations.push(Situation::new(
+            format!("{name}, outside"),
+            scene.clone(),
+            light,
+            outside,
+            Expected::AllDark,
+        ));
         let within = bare(within.step_by(5));
         situations.push(Situation::new(format!("{name}, inside"), scene, light, within, Expected::AllLit));
     }
     let cube = triangles(&cuboid(Vec3::NEG_ONE, Vec3::ONE));
     // Through the corners, the edges and the diagonals of the sides.
-    let through = steps(-2, 2).flat_map(|x| steps(-2, 2).flat_map(move |y| steps(-2, 2).map(move |z| v(x, y, z))));
+    let through =
+        steps(-2, 2).flat_map(|x| steps(-2, 2).flat_map(move |y| steps(-2, 2).map(move |z| v(x, y, z))));
     let outside = through.filter(|p| p.abs().max_element() == 2.0).flat_map(|p| [p, 1.5 * p, 1e9 * p]);
     situations.push(Situation::new("a box, outside", cube, Vec3::ZERO, bare(outside), Expected::AllDark));
     situations
@@ -83,7 +112,8 @@ fn one_ulp_off_a_wall() -> Vec<Situation> {
     let at = |y: f32, z: f32| v(WALL, 1234.0 + y, z);
     let wall = triangles(&[[at(-900.0, -900.0), at(900.0, -900.0), at(0.0, 900.0)]]);
     let across = [-1e4, -3.0, 0.0, 4.0, 1e5];
-    let ulps = [WALL.next_down().next_down(), WALL.next_down(), WALL, WALL.next_up(), WALL.next_up().next_up()];
+    let ulps =
+        [WALL.next_down().next_down(), WALL.next_down(), WALL, WALL.next_up(), WALL.next_up().next_up()];
     let xs: Vec<f32> = across.iter().map(|x| WALL + x).chain(ulps).collect();
     let lights = [WALL.next_up(), WALL.next_down()];
     let situation = |x: f32| {
@@ -116,7 +146,13 @@ fn point_in_the_light() -> Vec<Situation> {
         let alone = Situation::new(name, scene.clone(), light, bare([light]), Expected::AllLit);
         situations.push(alone);
         let near = bare(neighbours(light));
-        situations.push(Situation::new(format!("one ulp off, {name}"), scene, light, near, Expected::AsTruth));
+        situations.push(Situation::new(
+            format!("one ulp off, {name}"),
+            scene,
+            light,
+            near,
+            Expected::AsTruth,
+        ));
     }
     situations
 }
@@ -136,14 +172,29 @@ fn denormal_distance() -> Vec<Situation> {
     let situation = |name: &str, half: f32| {
         Situation::new(name, wide(half), Vec3::ZERO, bare(points.clone()), Expected::Known(dark.clone()))
     };
-    vec![situation("denormal corners", 100.0 * TINY), situation("usual corners", 1.0), situation("huge corners", 1e30)]
+    vec![
+        situation("denormal corners", 100.0 * TINY),
+        situation("usual corners", 1.0),
+        situation("huge corners", 1e30),
+    ]
 }
 
 fn very_far() -> Vec<Situation> {
     let mut situations = Vec::new();
     for height in [1e18f32, 2e18, 3e38] {
         let sheet = triangles(&square(1.0, 1.0));
-        let edge = [-1.5, -1.0f32.next_up(), -1.0, -1.0f32.next_down(), 0.0, 0.5, 1.0f32.next_down(), 1.0, 1.0f32.next_up(), 7.0];
+        let edge = [
+            -1.5,
+            -1.0f32.next_up(),
+            -1.0,
+            -1.0f32.next_down(),
+            0.0,
+            0.5,
+            1.0f32.next_down(),
+            1.0,
+            1.0f32.next_up(),
+            7.0,
+        ];
         let (mut points, mut dark) = (Vec::new(), Vec::new());
         for (x, z) in edge.into_iter().flat_map(|x| edge.map(|z| (x, z))) {
             points.push(v(x, 0.0, z));
@@ -151,11 +202,23 @@ fn very_far() -> Vec<Situation> {
             dark.push(x.abs() <= 1.0 && z.abs() <= 1.0);
         }
         let name = format!("{height:e} above a sheet");
-        situations.push(Situation::new(name, sheet, v(0.0, height, 0.0), bare(points), Expected::Known(dark)));
+        situations.push(Situation::new(
+            name,
+            sheet,
+            v(0.0, height, 0.0),
+            bare(points),
+            Expected::Known(dark),
+        ));
         let cube = soup(&[cuboid(v(-1.0, 0.0, -1.0), v(1.0, 2.0, 1.0)), square(9.0, -1.0)]);
         let aslant = v(-0.5, 0.75, 0.25) * height;
         let points = bare(around(-0.5).chain(around(3.0)));
-        situations.push(Situation::new(format!("{height:e} aslant"), cube, aslant, points, Expected::AsTruth));
+        situations.push(Situation::new(
+            format!("{height:e} aslant"),
+            cube,
+            aslant,
+            points,
+            Expected::AsTruth,
+        ));
     }
     let far: Corners = [v(-1e37, 1e37, -1e37), v(1e37, 1e37, -1e37), v(0.0, 1e37, 1e37)];
     let light = v(0.0, 3e38, 0.0);

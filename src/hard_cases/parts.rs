@@ -57,8 +57,7 @@ fn add(builder: &mut SceneBuilder, material: u32, triangles: &[Corners]) {
 
 /// A square across the y axis, of two triangles.
 pub fn square(half: f32, y: f32) -> Vec<Corners> {
-    let [a, b, c, d] =
-        [(-half, -half), (-half, half), (half, half), (half, -half)].map(|(x, z)| v(x, y, z));
+    let [a, b, c, d] = [(-half, -half), (-half, half), (half, half), (half, -half)].map(|(x, z)| v(x, y, z));
     vec![[a, b, c], [a, c, d]]
 }
 

@@ -1,13 +1,13 @@
 //! Cases of scale: far away, huge, tiny, and numbers that are none.
 
 use super::parts::{
-    Corners, STILL_LIGHT, TINY, ball, bare, behind, cuboid, grid, lid, moved, neighbours, seen, soup, steps, still_life,
-    still_points, triangles, v,
+    Corners, STILL_LIGHT, TINY, ball, bare, behind, cuboid, grid, lid, moved, neighbours, seen, soup, steps,
+    still_life, still_points, triangles, v,
 };
 use super::{Expected, HardCase, Situation};
+use crate::geometry::curved::Shape;
 use crate::scene::{ObjectInput, Scene, SceneBuilder, procedural};
 use crate::visibility::{PointSource, SurfacePoint};
-use crate::geometry::curved::Shape;
 use glam::Vec3;
 
 pub(super) const CASES: &[HardCase] = &[
@@ -24,13 +24,16 @@ fn far_away() -> Vec<Situation> {
     let place = v(148_376.0, 1234.0, -223_423.0);
     let sphere = ball(place.as_dvec3(), 2.0, 16);
     let plane = moved(&grid(12, |x, z| v(x as f32 - 6.0, 0.0, z as f32 - 6.0)), |p| p + place);
-    let corners = |mesh: &[Corners]| mesh.iter().flat_map(|&[a, b, c]| [a, 0.5 * (b + c)]).step_by(3).collect::<Vec<_>>();
+    let corners = |mesh: &[Corners]| {
+        mesh.iter().flat_map(|&[a, b, c]| [a, 0.5 * (b + c)]).step_by(3).collect::<Vec<_>>()
+    };
     let around = corners(&sphere).into_iter().map(|p| behind(p, place)).collect::<Vec<_>>();
     let above = place + v(0.25, 4.0, 0.5);
     let below = corners(&plane).into_iter().filter(|p| (*p - place).abs().max_element() < 6.0);
     let below: Vec<_> = below.map(|p| behind(p, above)).collect();
     let both = soup(&[sphere.clone(), moved(&plane, |p| p - v(0.0, 3.0, 0.0))]);
-    let on_plane = steps(-10, 10).flat_map(|x| steps(-10, 10).map(move |z| place + v(0.5 * x, -3.0, 0.5 * z)));
+    let on_plane =
+        steps(-10, 10).flat_map(|x| steps(-10, 10).map(move |z| place + v(0.5 * x, -3.0, 0.5 * z)));
     let on_plane = seen(&both, place + v(3.0, 9.0, 4.0), on_plane);
     let lamp = place + v(0.0, 8.0, 0.0);
     vec![
@@ -65,7 +68,13 @@ fn powers_of_two() -> Vec<Situation> {
         let light = factor * STILL_LIGHT;
         situations.push(Situation::new(name, scene.clone(), light, points, Expected::SameAs(0)));
         let points = bare(still_points().into_iter().map(|p| factor * p));
-        situations.push(Situation::new(format!("bare points, {name}"), scene, light, points, Expected::SameAs(1)));
+        situations.push(Situation::new(
+            format!("bare points, {name}"),
+            scene,
+            light,
+            points,
+            Expected::SameAs(1),
+        ));
     }
     situations
 }
@@ -86,7 +95,8 @@ fn offset_and_scale() -> Vec<Situation> {
 }
 
 fn teapot_in_a_stadium() -> Vec<Situation> {
-    let teapot = procedural::find("teapot").and_then(|builtin| builtin.build(Some(4))).expect("a built-in scene");
+    let teapot =
+        procedural::find("teapot").and_then(|builtin| builtin.build(Some(4))).expect("a built-in scene");
     let mut builder = SceneBuilder::extend(teapot);
     let stand = |low: Vec3, high: Vec3| {
         let triangles = cuboid(low, high);
@@ -100,7 +110,11 @@ fn teapot_in_a_stadium() -> Vec<Situation> {
     let scene = builder.into_scene();
     let places = steps(-12, 12).flat_map(|x| steps(-12, 12).map(move |y| v(0.3 * x, 0.3 * y, 0.4)));
     let points = seen(&scene, v(4.86, 7.2, 5.4), places);
-    let lights = [("a lamp near it", v(-3.1, 9.8, 12.1)), ("a lamp over the stand", v(4e4, 9.5e4, 3e4)), ("a lamp beyond", v(2e5, 3e5, 4e4))];
+    let lights = [
+        ("a lamp near it", v(-3.1, 9.8, 12.1)),
+        ("a lamp over the stand", v(4e4, 9.5e4, 3e4)),
+        ("a lamp beyond", v(2e5, 3e5, 4e4)),
+    ];
     let situation = |(name, light): (&str, Vec3)| {
         Situation::new(name, scene.clone(), light, points.clone(), Expected::AsTruth)
     };
@@ -117,10 +131,34 @@ fn huge_and_flat() -> Vec<Situation> {
     let outside = at(-1.0).chain(at(1.3e5)).chain(at(-1e11)).chain(at(4e9));
     let walls = steps(-5, 5).flat_map(|i| [v(3e11, 1e10 * i, 6e4 + i), v(1e10 * i, -3e11, 6e4 - i)]);
     vec![
-        Situation::new("inside it, outside", scene.clone(), middle, bare(outside.chain(walls)), Expected::AllDark),
-        Situation::new("inside it, inside", scene.clone(), middle, bare(at(1.0).chain(at(1.1e5))), Expected::AllLit),
-        Situation::new("above it, below", scene.clone(), above, bare(at(-1.0).chain(at(-3e5))), Expected::AllDark),
-        Situation::new("above it, above", scene, above, bare(at(1.2e5f32.next_up()).chain(at(1e9))), Expected::AllLit),
+        Situation::new(
+            "inside it, outside",
+            scene.clone(),
+            middle,
+            bare(outside.chain(walls)),
+            Expected::AllDark,
+        ),
+        Situation::new(
+            "inside it, inside",
+            scene.clone(),
+            middle,
+            bare(at(1.0).chain(at(1.1e5))),
+            Expected::AllLit,
+        ),
+        Situation::new(
+            "above it, below",
+            scene.clone(),
+            above,
+            bare(at(-1.0).chain(at(-3e5))),
+            Expected::AllDark,
+        ),
+        Situation::new(
+            "above it, above",
+            scene,
+            above,
+            bare(at(1.2e5f32.next_up()).chain(at(1e9))),
+            Expected::AllLit,
+        ),
     ]
 }
 
@@ -139,7 +177,12 @@ fn denormal_vertices() -> Vec<Situation> {
         let expected = if i == 0 { Expected::AsTruth } else { Expected::SameAs(0) };
         Situation::new(name, scene, factor * light, bare(points().map(|p| factor * p)), expected)
     };
-    let factors = [("usual", 1.0), ("denormal", TINY), ("half of them denormal", TINY * 2f32.powi(19)), ("near the least", f32::MIN_POSITIVE)];
+    let factors = [
+        ("usual", 1.0),
+        ("denormal", TINY),
+        ("half of them denormal", TINY * 2f32.powi(19)),
+        ("near the least", f32::MIN_POSITIVE),
+    ];
     factors.iter().enumerate().map(situation).collect()
 }
 

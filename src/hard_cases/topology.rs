@@ -1,7 +1,8 @@
 //! Cases of meshes that are not what a mesh should be.
 
 use super::parts::{
-    Corners, STILL_LIGHT, bare, behind, inverted, neighbours, soup, square, steps, still_life, still_points, triangles, v,
+    Corners, STILL_LIGHT, bare, behind, inverted, neighbours, soup, square, steps, still_life, still_points,
+    triangles, v,
 };
 use super::{Expected, HardCase, Situation};
 use glam::Vec3;
@@ -47,7 +48,13 @@ fn many_faces() -> Vec<Situation> {
         let beyond = bare(places(-0.5 * up).map(|p| v(0.75 * p.x, p.y, 0.75 * p.z)));
         situations.push(Situation::new(format!("a sheet {name}"), sheet(), light, beyond, Expected::AllDark));
         let before = bare(places(0.5 * up));
-        situations.push(Situation::new(format!("before a sheet, {name}"), sheet(), light, before, Expected::AllLit));
+        situations.push(Situation::new(
+            format!("before a sheet, {name}"),
+            sheet(),
+            light,
+            before,
+            Expected::AllLit,
+        ));
     }
     situations
 }
@@ -69,7 +76,13 @@ fn t_junction() -> Vec<Situation> {
         situations.push(Situation::new(name, scene.clone(), light, bare(points), Expected::Known(dark)));
         // At its ends the gap is closed.
         let ends: [Vec3; 2] = [a, b].map(|p| behind(p, light));
-        situations.push(Situation::new(format!("ends of a gap of {gap:e}"), scene, light, bare(ends), Expected::AllDark));
+        situations.push(Situation::new(
+            format!("ends of a gap of {gap:e}"),
+            scene,
+            light,
+            bare(ends),
+            Expected::AllDark,
+        ));
     }
     situations
 }

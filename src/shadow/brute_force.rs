@@ -1,5 +1,6 @@
 //! Every primitive for every query: the classical tracer of the 2004 paper, with the native predicates.
 
+use super::float_mode::expect_denormals;
 use super::precise::{self, crossed_by_points, is_there};
 use super::{Basis, BuildInput, Casters, Counters, Crossings, Lights, SceneIndex, ShadowTester, TesterEntry};
 use crate::error::Result;
@@ -15,7 +16,10 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "brute-force",
     basis: Basis::Exact,
     lights: Lights::All,
-    build: &|input| Ok(Box::new(BruteForce::new(input, InstructionSet::best()))),
+    build: &|input| {
+        expect_denormals()?;
+        Ok(Box::new(BruteForce::new(input, InstructionSet::best())))
+    },
     expected_tests: |casters, queries| casters * queries,
 };
 
@@ -103,6 +107,7 @@ pub(super) struct Batch<'p> {
 
 impl ShadowTester for BruteForce<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        expect_denormals()?;
         let mut counters = Counters::default();
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
             let batch = self.batch(points);
@@ -115,6 +120,7 @@ impl ShadowTester for BruteForce<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        expect_denormals()?;
         Ok(crossed_by_points(self.scene, self.index, &self.casters.space, points, crossings))
     }
 

@@ -12,6 +12,7 @@ mod crossings;
 pub mod embree;
 pub mod exact;
 pub mod facing;
+mod float_mode;
 pub mod light_buffer;
 mod precise;
 mod queries;

@@ -3,6 +3,7 @@
 mod embree_modes;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+mod hard_cases;
 mod hostile;
 mod info;
 mod masks;

@@ -20,4 +20,4 @@ mod spd;
 #[cfg(test)]
 mod tests;
 
-pub use registry::{BUILTIN, Builtin, SizeFactor, find};
+pub use registry::{BUILTIN, Builtin, HARD_CASES, SizeFactor, find};

@@ -75,11 +75,18 @@ const fn sized(
     }
 }
 
+/// The name that stands for all of [`hard_cases`](crate::hard_cases), which are no scene.
+pub const HARD_CASES: &str = "hard-cases";
+
 /// The scene of this name.
 ///
 /// # Errors
 /// [`Error::Usage`] if there is none; the line lists those that there are.
 pub fn find(name: &str) -> Result<&'static Builtin> {
+    if name == HARD_CASES {
+        let why = "it is many small scenes, and not one that could be drawn";
+        return Err(Error::Usage(format!("builtin:{name} is for `validate` alone: {why}")));
+    }
     BUILTIN.iter().find(|scene| scene.name == name).ok_or_else(|| {
         let names: Vec<_> = BUILTIN.iter().map(|scene| scene.name).collect();
         Error::Usage(format!("no built-in scene `{name}`; there are {}", names.join(", ")))

@@ -7,6 +7,7 @@
 mod hierarchy;
 
 use super::brute_force::{Batch, BruteForce};
+use super::float_mode::expect_denormals;
 use super::precise::crossed_among;
 use super::{Basis, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry};
 use crate::error::Result;
@@ -24,7 +25,10 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "bounding-volumes",
     basis: Basis::Exact,
     lights: Lights::All,
-    build: &|input| Ok(Box::new(BoundingVolumes::new(input, InstructionSet::best()))),
+    build: &|input| {
+        expect_denormals()?;
+        Ok(Box::new(BoundingVolumes::new(input, InstructionSet::best())))
+    },
     // In the worst case all triangles are one object, which every segment meets.
     expected_tests: |casters, queries| casters * queries,
 };
@@ -169,6 +173,7 @@ impl<'a> BoundingVolumes<'a> {
 
 impl ShadowTester for BoundingVolumes<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        expect_denormals()?;
         let mut counters = Counters::default();
         let space = &self.casters.casters.space;
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
@@ -183,6 +188,7 @@ impl ShadowTester for BoundingVolumes<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        expect_denormals()?;
         let mut counters = Counters::default();
         let space = &self.casters.casters.space;
         for point in points {

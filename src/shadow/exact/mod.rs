@@ -27,6 +27,7 @@ mod traced;
 pub use integer::Meeting;
 pub use traced::Span;
 
+use super::float_mode::expect_denormals;
 use super::{Basis, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry};
 use crate::error::Result;
 use crate::geometry::{ExactPosition, LightPosition};
@@ -42,7 +43,10 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "exact",
     basis: Basis::Truth,
     lights: Lights::All,
-    build: &|input| Ok(Box::new(Arbiter::new(input))),
+    build: &|input| {
+        expect_denormals()?;
+        Ok(Box::new(Arbiter::new(input)))
+    },
     expected_tests: |_, queries| 100.0 * queries,
 };
 
@@ -195,6 +199,7 @@ impl<'a> Arbiter<'a> {
 
 impl ShadowTester for Arbiter<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        expect_denormals()?;
         for (point, answer) in points.iter().zip(answers) {
             *answer = self.decide(point).occlusion == Occlusion::Occluded;
         }
@@ -202,6 +207,7 @@ impl ShadowTester for Arbiter<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        expect_denormals()?;
         for point in points {
             crossings.push(Arbiter::crossed(self, point));
         }
