@@ -24,6 +24,7 @@ fn every_case_is_judged_and_no_native_answer_is_wrong() {
             assert_eq!(case["testers"][tester]["wrong"], 0, "{name}: {tester}");
             assert!(case["testers"][tester]["refused"].is_null(), "{name}: {tester}");
         }
+        assert!(case["testers"]["shadow-buffer"].is_null(), "{name}");
         if cfg!(feature = "embree") {
             let embree = &case["testers"]["embree"];
             assert!(embree["wrong"].is_u64() || embree["refused"].is_string(), "{name}: {embree}");

@@ -53,7 +53,7 @@ fn case_34_has_lists_no_longer_than_the_teapot() {
     let longest =
         |cells: u32| situations.iter().map(move |s| with_buffer(s, cells, |b| b.counts().longest_list));
     let all = situations[0].scene.triangles.len() as u64;
-    // From near it, cells are far smaller than the teapot. From the stand it is inside a cell or two, and no list can be
+    // From near it, cells are far smaller than the teapot. From the stand it is in a cell or two, and no list can be
     // shorter than what is seen there.
     let [near, stand, beyond] = [0, 1, 2].map(|light| longest(64).nth(light).unwrap());
     assert!(near * 8 < all, "{near} of {all}");
