@@ -108,9 +108,18 @@ plant first-hits-of-two-sides src/geometry/solid/outside.rs \
     what_rays_cannot_tell_is_not_outside
 
 plant receivers-that-cast-nothing-forgotten $buffer/roles.rs \
-    'primitives.chain(culled.iter().copied()).filter(may_be_asked).collect()' \
-    'primitives.chain(culled.iter().copied()).filter(may_be_asked).take(0).collect()' \
+    'primitives.filter(may_be_asked).collect()' \
+    'primitives.filter(may_be_asked).take(0).collect()' \
     every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant culled-sides-looked-up $buffer/mod.rs \
+    'is_some_and(|culled| culled.hold(point))' 'is_some_and(|culled| culled.hold(point) && false)' \
+    from_inside_of_a_solid_its_far_sides_are_dark_but_for_edges_that_the_light_grazes
+
+plant duplicates-of-culled-sides-looked-up $buffer/culled_receivers.rs \
+    '(0..scene.triangles.len() as u32).into_par_iter().map(is_culled).collect()' \
+    '(0..scene.triangles.len() as u32).into_par_iter().map(|t| is_culled(t) && culled.contains(&t)).collect()' \
+    from_inside_of_a_solid_its_far_sides_are_dark_but_for_edges_that_the_light_grazes
 
 plant receivers-ignored-in-a-cell $buffer/cell.rs \
     'candidates.sort_unstable_by' 'candidates.retain(|c| c.role != Role::ReceivesOnly);

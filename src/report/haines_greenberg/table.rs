@@ -190,29 +190,37 @@ fn truth(text: &mut String, environment: &Environment) {
 fn checks(text: &mut String, document: &Reproduction) {
     let _ = writeln!(
         text,
-        "Shadow tests per ray: do they fall with R, and as far as in the paper?\n  {:<18} {:>6} {:>22} {:>22}   as far?",
-        "", "falls?", "control / R = 100", "R = 10 / R = 100"
+        "Shadow tests per ray: do they fall with R, and how far below the control's?\n  {:<18} {:>6} {:>22} {:>10} {:>22} {:>10}   as far as in the paper?",
+        "", "falls?", "control / R = 100", "as far?", "R = 10 / R = 100", "control /"
     );
+    let answer = |holds: bool| if holds { "yes" } else { "no" };
     for environment in &document.environments {
         let check = &environment.check;
         let paper = check.paper_control_over_finest.map_or("-".into(), |ratio| format!("{ratio:.1}"));
+        let unprinted = match check.paper_control_over_finest {
+            Some(_) => "",
+            None => ", from R = 10: the paper prints no control",
+        };
         let _ = writeln!(
             text,
-            "  {:<18} {:>6} {:>12.1} |{:>8} {:>12.1} |{:>8.1}   {}",
+            "  {:<18} {:>6} {:>12.1} |{:>8} {:>10} {:>12.1} |{:>8.1} {:>10.1}   {} at R = {}{}",
             environment.name,
-            if check.falls { "yes" } else { "no" },
+            answer(check.falls),
             check.control_over_finest,
             paper,
+            answer(check.as_far_at_finest),
             check.coarsest_over_finest,
             check.paper_coarsest_over_finest,
-            match (check.as_far, check.paper_control_over_finest) {
-                (true, Some(_)) => "yes",
-                (false, Some(_)) => "no",
-                (true, None) => "yes, from R = 10: the paper prints no control",
-                (false, None) => "no, from R = 10: the paper prints no control",
-            },
+            check.control_over_last,
+            answer(check.ends_as_far),
+            check.last,
+            unprinted,
         );
     }
     let holds = document.environments.iter().filter(|environment| environment.check.holds()).count();
-    let _ = writeln!(text, "  holds for {holds} of {}", document.environments.len());
+    let _ = writeln!(
+        text,
+        "  falls, and ends as far down as in the paper, in {holds} of {}",
+        document.environments.len()
+    );
 }

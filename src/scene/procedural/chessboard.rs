@@ -24,10 +24,10 @@ pub(super) fn build() -> Result<Scene> {
     let mut studio = Studio::new("chessboard");
     add_board(&mut studio)?;
     add_men(&mut studio)?;
-    studio.lamp("window", [-9.0, 12.0, 4.0], [0.62, 0.6, 0.56]);
-    studio.lamp("ceiling", [2.5, 15.0, -3.0], [0.3, 0.29, 0.27]);
-    studio.lamp("desk lamp", [8.5, 6.0, 7.0], [0.34, 0.29, 0.21]);
-    studio.lamp("far lamp", [-5.0, 5.5, -11.0], [0.16, 0.18, 0.22]);
+    studio.lamp("window", [-6.2, 8.2, 2.8], [0.62, 0.6, 0.56]);
+    studio.lamp("ceiling", [1.8, 10.4, -2.2], [0.3, 0.29, 0.27]);
+    studio.lamp("desk lamp", [6.2, 4.4, 5.0], [0.34, 0.29, 0.21]);
+    studio.lamp("far lamp", [-3.6, 4.2, -7.6], [0.16, 0.18, 0.22]);
     studio.camera([4.4, 8.6, 11.2], [-0.1, -0.1, 0.35], 39.0, PAPER_SIZE);
     Ok(studio.finish())
 }

@@ -33,9 +33,9 @@ pub(super) fn build() -> Result<Scene> {
     chair.add_base(&mut studio)?;
     chair.add_back(&mut studio)?;
     chair.add_tray(&mut studio)?;
-    studio.lamp("window", [-12.0, 17.0, 13.0], [0.75, 0.73, 0.68]);
-    studio.lamp("ceiling", [4.0, 19.5, 5.0], [0.3, 0.29, 0.26]);
-    studio.lamp("corner", [14.0, 7.0, 10.0], [0.24, 0.2, 0.15]);
+    studio.lamp("window", [-5.5, 11.5, 5.5], [0.75, 0.73, 0.68]);
+    studio.lamp("ceiling", [1.7, 13.0, 2.2], [0.3, 0.29, 0.26]);
+    studio.lamp("corner", [6.0, 6.5, 4.4], [0.24, 0.2, 0.15]);
     studio.camera([9.0, 10.2, 17.4], [0.35, 4.75, 0.0], 37.0, PAPER_SIZE);
     Ok(studio.finish())
 }

@@ -23,11 +23,11 @@ pub(super) fn build() -> Result<Scene> {
     let table = studio.material(polished("lacquer", [0.085, 0.03, 0.02], 0.34));
     studio.add("table", table, cuboid([-40.0, -0.5, -60.0], [40.0, 0.0, 9.0]))?;
     add_house(&mut studio)?;
-    studio.lamp("key", [-7.0, 9.0, 9.0], [0.66, 0.62, 0.55]);
-    studio.lamp("fill", [9.0, 7.0, 8.0], [0.24, 0.26, 0.32]);
-    studio.lamp("back", [5.0, 10.0, -9.0], [0.3, 0.28, 0.25]);
-    studio.lamp("side", [-12.0, 3.5, -1.5], [0.22, 0.17, 0.12]);
-    studio.lamp("top", [0.5, 16.0, 1.0], [0.22, 0.22, 0.22]);
+    studio.lamp("key", [-5.0, 6.0, 4.0], [0.66, 0.62, 0.55]);
+    studio.lamp("fill", [5.5, 4.5, 3.6], [0.24, 0.26, 0.32]);
+    studio.lamp("back", [3.2, 6.6, -3.6], [0.3, 0.28, 0.25]);
+    studio.lamp("side", [-5.6, 3.0, -0.7], [0.22, 0.17, 0.12]);
+    studio.lamp("top", [0.5, 9.5, 0.7], [0.22, 0.22, 0.22]);
     studio.camera([6.6, 6.6, 11.2], [0.1, 2.0, 0.0], 37.0, PAPER_SIZE);
     Ok(studio.finish())
 }

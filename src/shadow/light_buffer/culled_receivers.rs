@@ -64,3 +64,62 @@ impl LightBuffer<'_> {
             || (0..self.casters.planes.len() as u32).any(|caster| self.blocks(caster, &asked, counters))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{ObjectInput, SceneBuilder};
+    use crate::shadow::light_buffer::ENTRY;
+    use crate::shadow::{BuildInput, Culling, Resolution, SceneIndex, exact};
+    use glam::Vec3;
+
+    /// A box from one corner to the other, its outside outside.
+    fn cuboid(low: [f32; 3], high: [f32; 3]) -> ObjectInput {
+        let corner =
+            |i: usize| Vec3::from_array([0, 1, 2].map(|k| if i >> k & 1 == 1 { high[k] } else { low[k] }));
+        let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        ObjectInput::new("box", (0..8).map(corner).collect(), triangles)
+    }
+
+    #[test]
+    fn from_inside_of_a_solid_its_far_sides_are_dark_but_for_edges_that_the_light_grazes() {
+        // The second box has a side in common with the first: that is cast once, for the first.
+        let mut builder = SceneBuilder::new("test");
+        builder.add_object(cuboid([-2.0, -2.0, -2.0], [2.0, 2.0, 2.0])).unwrap();
+        builder.add_object(cuboid([-2.0, -2.0, -6.0], [2.0, 2.0, -2.0])).unwrap();
+        let scene = builder.finish();
+        let index = SceneIndex::new(&scene);
+        let eye = Vec3::new(0.5, -0.25, 1.0);
+        let light = Vec3::new(3.0, 5.0, 9.0);
+        let inside = |t: u32, u: i32, v: i32| {
+            let [a, b, c] = scene.corners(t);
+            let target = a + (b - a) * (u as f32 / 4.0) + (c - a) * (v as f32 / 4.0);
+            SurfacePoint::on_ray(&scene, eye, target - eye, t)
+        };
+        // Corners, edges and insides of all triangles of the first box, and of the common side of the second.
+        let towards = |&t: &u32| t < 12 || scene.corners(t).iter().all(|p| p.z == -2.0);
+        let points: Vec<_> = (0..scene.triangles.len() as u32)
+            .filter(towards)
+            .flat_map(|t| (0..=4).flat_map(move |u| (0..=4 - u).map(move |v| (t, u, v))))
+            .map(|(t, u, v)| inside(t, u, v))
+            .collect();
+        let answers = |entry: &crate::shadow::TesterEntry, resolution: u32| {
+            let input = BuildInput {
+                resolution: Resolution::Cells(resolution),
+                culling: Culling::ClosedSolids,
+                ..BuildInput::new(&scene, &index, light)
+            };
+            let mut answers = vec![false; points.len()];
+            let counters = (entry.build)(&input).unwrap().occluded(&points, &mut answers).unwrap();
+            (answers, counters.tests)
+        };
+        let (truth, _) = answers(&exact::ENTRY, 1);
+        assert!(truth.iter().any(|&t| t) && !truth.iter().all(|&t| t));
+        for resolution in [1, 7, 64] {
+            let (found, tests) = answers(&ENTRY, resolution);
+            assert_eq!(found, truth, "R = {resolution}");
+            assert!(tests < 12 * points.len() as u64, "points inside of a triangle need no test");
+        }
+    }
+}
