@@ -25,7 +25,7 @@ pub struct Args {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Image size in pixels [default: of the 1986 paper its own, 512x480, and 436x479 for the kitchen; for the
-    /// t-buffer paper 640x480 for pictures and 320x240 for times]
+    /// t-buffer paper 640x480 for pictures and 240x180 for times]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<ImageSize>,
     /// The most times that anything is done to time it; what takes a second is done once

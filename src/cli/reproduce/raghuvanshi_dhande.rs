@@ -18,8 +18,8 @@ use crate::scene::procedural::find;
 use crate::shading::{Following, Textures};
 
 /// The images of figures 13 to 17, which the paper says nothing about: small, so that the classical tracer is through
-/// with 6000 objects in seconds.
-const TIMED_SIZE: ImageSize = ImageSize { width: 320, height: 240 };
+/// with 6000 objects in a few seconds.
+const TIMED_SIZE: ImageSize = ImageSize { width: 240, height: 180 };
 
 /// What is for this paper alone.
 #[derive(Debug, clap::Args)]
