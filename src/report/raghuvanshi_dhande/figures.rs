@@ -8,6 +8,9 @@ use crate::measure::fit::{Degree, Fit};
 use crate::measure::raghuvanshi_dhande::{Contender, Judged, MeasuredFrame, ObjectKind, Series};
 use crate::scene::ImageSize;
 
+/// Beyond as many objects what each of them costs the t-buffer shows in the gain.
+const FEW_OBJECTS: f64 = 1000.0;
+
 /// Curves of figures 13 to 16 run over this.
 const OBJECTS: &str = "objects";
 
@@ -96,10 +99,15 @@ fn gains(series: &[Series], rows: &[u32]) -> (Vec<Curve>, Vec<Fact>) {
             if let (Some(fit), true) = (&fit, contender == Contender::ShadowBuffer(rows[0])) {
                 let r_squared = Fact::new(format!("{kind}: r^2 of a line through the gain"), fit.r_squared);
                 facts.push(r_squared.said("approximately linear in the number of objects"));
+                let few = places(&curve).into_iter().filter(|(objects, _)| *objects <= FEW_OBJECTS);
+                if let Some(fit) = Fit::new(&few.collect::<Vec<_>>(), Degree::Linear) {
+                    let what = format!("{kind}: the same up to {FEW_OBJECTS} objects");
+                    facts.push(Fact::new(what, fit.r_squared));
+                }
                 let slope = 1000.0 * fit.coefficients[1];
                 facts.push(Fact::new(format!("{kind}: gain for every 1000 objects"), slope));
             }
-            curve.fit = fit.as_ref().map(FitReport::from);
+            curve.fit = fit.as_ref().filter(|_| contender.rows().is_some()).map(FitReport::from);
             curves.push(curve);
         }
         let ([first, ..], [.., last]) = (&one.frames[..], &one.frames[..]) else { continue };
@@ -133,7 +141,7 @@ pub fn figure_17(frame: &MeasuredFrame, size: ImageSize) -> Figure {
     let mut curves = vec![
         of("t-buffer and shadow-buffer", &|tester| frame.t_buffer_seconds(tester)),
         of("filling the shadow-buffer", &|tester| tester.build_seconds),
-        of("looking it up", &|tester| tester.query_seconds),
+        Curve { fit: None, ..of("looking it up", &|tester| tester.query_seconds) },
     ];
     let rows: Vec<u32> = buffers().map(|(_, rows)| rows).collect();
     for &other in Contender::OTHERS {
