@@ -4,7 +4,7 @@
 //! `make test-scenes SCENES=folder` runs these tests; the folder holds the seven of `spd/` at standard size.
 
 use lightbuffer::scene::{Camera, ImageSize, Scene, formats};
-use lightbuffer::shading::{RayForest, USUAL_DEPTH};
+use lightbuffer::shading::{RayForest, TreeRules, USUAL_DEPTH};
 use lightbuffer::shadow::{BuildInput, Queries, SceneIndex, find};
 use lightbuffer::verdict::{Progress, judge};
 use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
@@ -20,7 +20,7 @@ fn load(name: &str) -> Scene {
 fn forest(scene: &Scene, camera: &Camera, size: ImageSize) -> RayForest {
     let hits = t_buffer::first_hits(scene, camera, size);
     let seen = VisibleSurfaces::new(scene, camera, &hits);
-    RayForest::grow(scene, seen, size.pixels() as u64, USUAL_DEPTH)
+    RayForest::grow(scene, seen, size.pixels() as u64, TreeRules::of_depth(USUAL_DEPTH))
 }
 
 /// What was published for a classical ray tracer: eye rays through the 513 x 513 corners of 512 x 512 pixels, at most

@@ -1,15 +1,17 @@
 //! Options that commands share, and how their values are written.
 
+use super::view::LookRules;
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
-use crate::shading::USUAL_DEPTH;
+use crate::shading::{Following, Textures, TreeRules, USUAL_DEPTH};
 use crate::shadow::shadow_buffer::sphere::Sphere;
 use crate::shadow::shadow_buffer::{DepthBias, FilterWidth, Lookup, ShadowBufferSettings};
 use crate::shadow::{
     BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, VolumeThreshold,
 };
+use crate::visibility::FirstHitMethod;
 use clap::Args;
 use glam::Vec3;
 use std::path::PathBuf;
@@ -81,7 +83,6 @@ pub fn parse_light_argument(text: &str) -> std::result::Result<LightArgument, St
     Ok(parse_point(text).map_or_else(|_| LightArgument::Name(text.into()), LightArgument::Position))
 }
 
-/// What is done with it.
 /// How far rays are followed.
 #[derive(Debug, Args)]
 pub struct TreeOptions {
@@ -93,6 +94,78 @@ pub struct TreeOptions {
         value_parser = clap::value_parser!(u32).range(1..=64)
     )]
     pub depth: u32,
+}
+
+/// What is left out of a picture, and who finds what the camera sees: the switches of REALITY (2004 paper,
+/// section IV).
+#[derive(Debug, Args)]
+pub struct Switches {
+    /// No shadows: light arrives wherever it is faced. No tester is built or asked
+    #[arg(long, conflicts_with = "shadow")]
+    no_shadows: bool,
+    /// No mirrors and no total reflection: no rays are followed for them
+    #[arg(long)]
+    no_reflections: bool,
+    /// No rays through transparent surfaces; shadows stay as they are
+    #[arg(long)]
+    no_refractions: bool,
+    /// Every surface in the one colour of its material; holes of alpha masks stay
+    #[arg(long)]
+    no_textures: bool,
+    /// Who finds what the camera sees: t-buffer object by object, with the rays that its projection covers;
+    /// classical every object for every ray; hierarchy ray by ray through boxes. No picture depends on it
+    #[arg(long, value_name = "METHOD", default_value = "t-buffer", value_parser = parse_method)]
+    first_hits: FirstHitMethod,
+}
+
+impl Switches {
+    /// Whether shadows are tested.
+    pub fn shadows(&self) -> Shadows {
+        if self.no_shadows { Shadows::Off } else { Shadows::On }
+    }
+
+    /// Whether textures are looked at.
+    pub fn textures(&self) -> Textures {
+        if self.no_textures { Textures::Off } else { Textures::On }
+    }
+
+    /// How a view is looked at, with so many rays one behind the other.
+    pub fn look(&self, depth: u32) -> LookRules {
+        let following = |left_out: bool| if left_out { Following::Off } else { Following::On };
+        let trees = TreeRules {
+            depth,
+            reflections: following(self.no_reflections),
+            refractions: following(self.no_refractions),
+        };
+        LookRules { first_hits: self.first_hits, trees }
+    }
+
+    /// What changes the picture, in words.
+    pub fn left_out(&self) -> Vec<&'static str> {
+        let switches = [
+            (self.no_shadows, "shadows"),
+            (self.no_reflections, "reflections"),
+            (self.no_refractions, "refractions"),
+            (self.no_textures, "textures"),
+        ];
+        switches.into_iter().filter(|(left_out, _)| *left_out).map(|(_, what)| what).collect()
+    }
+}
+
+/// Whether shadows are tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shadows {
+    /// By a tester.
+    On,
+    /// By none.
+    Off,
+}
+
+fn parse_method(text: &str) -> std::result::Result<FirstHitMethod, String> {
+    FirstHitMethod::ALL.into_iter().find(|method| method.name() == text).ok_or_else(|| {
+        let names = FirstHitMethod::ALL.map(FirstHitMethod::name);
+        format!("expected {}", names.join(", "))
+    })
 }
 
 #[derive(Debug, Args)]

@@ -75,12 +75,16 @@ pub fn print(text: &str) -> Result<()> {
     }
 }
 
-/// A PNG of the planes R, G and B.
+/// A PNG of the planes R, G and B, over the background where they are not opaque.
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write_preview(path: &Path, planes: &ImagePlanes, exposure: f32) -> Result<()> {
-    let plane = |name: &str| planes.channel(name).unwrap_or_default();
-    let rgb = ToneMap::new(exposure).apply_planes(plane("R"), plane("G"), plane("B"));
+pub fn write_preview(path: &Path, planes: &ImagePlanes, background: [f32; 3], exposure: f32) -> Result<()> {
+    let alpha = planes.channel("A").unwrap_or_default();
+    let [red, green, blue] = [("R", 0), ("G", 1), ("B", 2)].map(|(name, channel)| {
+        let samples = planes.channel(name).unwrap_or_default().iter().zip(alpha);
+        samples.map(|(value, alpha)| value + (1.0 - alpha) * background[channel]).collect::<Vec<_>>()
+    });
+    let rgb = ToneMap::new(exposure).apply_planes(&red, &green, &blue);
     write_png_rgb(path, planes.size(), &rgb)
 }

@@ -5,9 +5,9 @@ use crate::error::{Error, Result};
 use crate::film::{CategoryMap, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
-use crate::shading::shade_picture;
-use crate::shadow::Queries;
+use crate::shading::{Textures, shade_picture};
 use crate::shadow::shadow_buffer::{self, ShadowBufferSettings};
+use crate::shadow::{Crossings, Queries};
 use crate::verdict::{LightVerdict, TesterRun};
 use crate::visibility::VisibleSurfaces;
 
@@ -19,21 +19,55 @@ pub struct Preview {
     pub colours: CategoryMap,
 }
 
-/// The picture with the shadows of one tester, a run for each light of the scene.
+/// The light that one light of the scene casts.
+#[derive(Clone, Copy)]
+pub enum Lighting<'a> {
+    /// Where a tester says that it arrives.
+    Shadowed {
+        /// Of each query.
+        occluded: &'a [bool],
+        /// What the segments of the others cross, if that was asked for.
+        crossings: Option<&'a Crossings>,
+    },
+    /// This share of it, of each query.
+    Soft(&'a [[f32; 3]]),
+    /// Wherever it is faced.
+    Unshadowed,
+}
+
+impl<'a> From<&'a TesterRun> for Lighting<'a> {
+    fn from(run: &'a TesterRun) -> Lighting<'a> {
+        match &run.soft_light {
+            Some(light) => Lighting::Soft(light),
+            None => Lighting::Shadowed { occluded: &run.occluded, crossings: run.crossings.as_ref() },
+        }
+    }
+}
+
+/// The picture, with the queries and the lighting of each light of the scene.
 ///
 /// # Errors
 /// Never for the points of a view.
-pub fn shaded(view: &View, seen: &Seen, shadows: &[(&Queries, &TesterRun)]) -> Result<ImagePlanes> {
-    let arriving: Vec<_> = shadows.iter().map(|(queries, run)| arriving(view, seen, queries, run)).collect();
-    let shaded = shade_picture(&view.scene, &view.camera, &view.scene.lights, &seen.forest, &arriving);
+pub fn shaded(
+    view: &View,
+    seen: &Seen,
+    lighting: &[(&Queries, Lighting)],
+    textures: Textures,
+) -> Result<ImagePlanes> {
+    let arriving: Vec<_> =
+        lighting.iter().map(|(queries, lighting)| arriving(view, seen, queries, lighting)).collect();
+    let View { scene, camera, .. } = view;
+    let shaded = shade_picture(scene, camera, &scene.lights, &seen.forest, &arriving, textures);
     picture_planes(seen.hits.size, &view.scene, &seen.forest.nodes, &shaded)
 }
 
-fn arriving(view: &View, seen: &Seen, queries: &Queries, run: &TesterRun) -> Vec<[f32; 3]> {
+fn arriving(view: &View, seen: &Seen, queries: &Queries, lighting: &Lighting) -> Vec<[f32; 3]> {
     let points = seen.forest.nodes.points.len();
-    match &run.soft_light {
-        Some(soft) => queries.arriving_by(&view.scene, points, |query| soft[query]),
-        None => queries.arriving(&view.scene, points, &run.occluded, run.crossings.as_ref()),
+    let scene = &view.scene;
+    match lighting {
+        Lighting::Shadowed { occluded, crossings } => queries.arriving(scene, points, occluded, *crossings),
+        Lighting::Soft(light) => queries.arriving_by(scene, points, |query| light[query]),
+        Lighting::Unshadowed => queries.arriving(scene, points, &vec![false; queries.points.len()], None),
     }
 }
 
@@ -60,14 +94,15 @@ pub fn add_mask(
     name: &str,
     visible: &VisibleSurfaces,
     queries: &Queries,
-    run: &TesterRun,
+    tester: &str,
+    occluded: &[bool],
 ) -> Result<()> {
     let mut samples = vec![0.0; planes.size().pixels()];
     let pixels = queries.nodes.iter().map_while(|&node| visible.pixel_seen(node));
-    for (pixel, &occluded) in pixels.zip(&run.occluded) {
+    for (pixel, &occluded) in pixels.zip(occluded) {
         samples[pixel as usize] = f32::from(u8::from(occluded));
     }
-    planes.add_channel(format!("shadow.{name}.{}", run.name), samples)
+    planes.add_channel(format!("shadow.{name}.{tester}"), samples)
 }
 
 /// Adds the channels `shadow.<light>.*` and returns the previews of the light's maps.
@@ -83,7 +118,7 @@ pub fn add_light(
     tester: &str,
 ) -> Result<Vec<Preview>> {
     for result in &verdict.testers {
-        add_mask(planes, name, visible, queries, &result.run)?;
+        add_mask(planes, name, visible, queries, result.run.name, &result.run.occluded)?;
     }
     let Some(maps) = LightMaps::new(planes.size(), name, visible, queries, verdict, tester) else {
         return Ok(Vec::new());
@@ -94,7 +129,18 @@ pub fn add_light(
     Ok(difference.into_iter().chain([verdict]).collect())
 }
 
-/// Says in the file what it shows and what made it. Times and machines stay out, so that equal pictures
+/// Says in the file what it shows without, if something was left out.
+///
+/// # Errors
+/// If the attribute is there already.
+pub fn add_left_out(planes: &mut ImagePlanes, left_out: &[&str]) -> Result<()> {
+    match left_out {
+        [] => Ok(()),
+        _ => planes.add_attribute("leftOut", left_out.join(" ")),
+    }
+}
+
+/// Says in the file what it shows and what made it; `tester` is whose shadows it has, if any. Times and machines stay out, so that equal pictures
 /// are equal files.
 ///
 /// # Errors
@@ -103,7 +149,7 @@ pub fn add_attributes(
     planes: &mut ImagePlanes,
     view: &View,
     testers: &[&str],
-    tester: &str,
+    tester: Option<&str>,
     embree: Option<&EmbreeFacts>,
     settings: &ShadowBufferSettings,
 ) -> Result<()> {
@@ -112,7 +158,9 @@ pub fn add_attributes(
     planes.add_attribute("sceneHash", format!("{:016x}", view.scene.hash()))?;
     planes.add_attribute("camera", &view.camera.name)?;
     planes.add_attribute("testers", testers.join(" "))?;
-    planes.add_attribute("shadow", tester)?;
+    if let Some(tester) = tester {
+        planes.add_attribute("shadow", tester)?;
+    }
     if testers.contains(&shadow_buffer::ENTRY.name) {
         // They decide its answers.
         planes.add_attribute("shadowBuffer", settings.to_string())?;

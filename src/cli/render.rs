@@ -1,6 +1,7 @@
 //! `lightbuffer render`: a scene becomes an OpenEXR picture.
 
-use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
+use super::options::{LightOptions, RunOptions, Shadows, Switches, TreeOptions, ViewOptions};
+use super::picture::Lighting;
 use super::progress::{Bars, Messages};
 use super::testers::{expect_available, expect_lights};
 use super::view::{Seen, View};
@@ -26,6 +27,8 @@ pub struct Args {
     lights: LightOptions,
     #[command(flatten)]
     trees: TreeOptions,
+    #[command(flatten)]
+    switches: Switches,
     /// OpenEXR file to write; a PNG preview is written beside it
     #[arg(short, long, value_name = "OUT.exr", value_parser = parse_output)]
     output: PathBuf,
@@ -43,11 +46,11 @@ pub struct Args {
     json: Option<PathBuf>,
     /// Save the shadow-buffer of each light in this folder, as LIGHT.shadow-buffer, for other views of the scene;
     /// with --shadow shadow-buffer
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "no_shadows")]
     save_shadow_buffers: Option<PathBuf>,
     /// Load the shadow-buffer of each light from a folder where they were saved, in place of filling it: those of
     /// another scene, light or size are refused; with --shadow shadow-buffer
-    #[arg(long, value_name = "DIR", conflicts_with = "save_shadow_buffers")]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["save_shadow_buffers", "no_shadows"])]
     load_shadow_buffers: Option<PathBuf>,
     #[command(flatten)]
     run: RunOptions,
@@ -67,27 +70,37 @@ struct Facts {
     scene: String,
     width: u32,
     height: u32,
-    shadow: String,
+    /// Null without shadows.
+    shadow: Option<String>,
+    first_hits: &'static str,
+    left_out: Vec<&'static str>,
     lights: Vec<LightFacts>,
 }
 
 #[derive(Debug, Serialize)]
 struct LightFacts {
     name: String,
+    /// Those that were asked: none without shadows.
     queries: u64,
     facing_away: u64,
     outside_cone: u64,
     not_receiving: u64,
-    shadowed: u64,
-    build_seconds: f64,
-    ns_per_query: f64,
-    bytes: usize,
+    /// This and what follows is null without shadows.
+    shadowed: Option<u64>,
+    build_seconds: Option<f64>,
+    ns_per_query: Option<f64>,
+    bytes: Option<usize>,
 }
 
 impl Args {
-    /// Codes of a verdict have no mean.
+    /// Codes of a verdict have no mean, and without shadows there is nothing to judge.
     fn without_verdict(&self) -> bool {
-        self.no_verdict || self.subdivide > 1
+        self.no_verdict || self.subdivide > 1 || self.switches.shadows() == Shadows::Off
+    }
+
+    /// Whose shadows the picture has.
+    fn tester(&self) -> Option<&str> {
+        (self.switches.shadows() == Shadows::On).then_some(self.shadow.as_str())
     }
 
     /// Only the shadow-buffer has files, and the folder for them must be one.
@@ -119,15 +132,17 @@ pub fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn render(args: &Args, messages: Messages) -> Result<Outcome> {
-    let tester = find(&args.shadow)?;
-    expect_available(tester)?;
-    args.expect_shadow_buffer(tester)?;
+    let tester = args.tester().map(find).transpose()?;
+    if let Some(tester) = tester {
+        expect_available(tester)?;
+        args.expect_shadow_buffer(tester)?;
+    }
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let mut view = View::load(&args.view, &args.lights, messages)?;
-    expect_lights(tester, &view.scene.lights)?;
+    tester.map_or(Ok(()), |tester| expect_lights(tester, &view.scene.lights))?;
     view.subdivide(args.subdivide)?;
-    let seen = view.look(args.trees.depth, args.run.memory_limit())?;
+    let seen = view.look(args.switches.look(args.trees.depth), args.run.memory_limit())?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let embree = if args.without_verdict() {
@@ -135,8 +150,8 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     } else {
         validate::embree_facts(threads, args.run.embree_epsilon, messages)?
     };
-    let mut entries = vec![tester];
-    if embree.is_some() && tester.name != "embree" {
+    let mut entries: Vec<_> = tester.into_iter().collect();
+    if embree.is_some() && args.shadow != "embree" {
         entries.push(find("embree")?);
     }
     let mut lights = Vec::new();
@@ -154,18 +169,20 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         };
         let input = BuildInput { shadow_buffer_file, ..args.run.build_input(&view.scene, &index, position) };
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
-        let shadow = if args.without_verdict() {
-            Shadow::Alone(run_tester(tester, &input, &queries, &bars)?)
-        } else {
-            Shadow::Judged(judge(&input, &queries, &entries, &bars)?)
+        let shadow = match tester {
+            None => Shadow::Off,
+            Some(tester) if args.without_verdict() => {
+                Shadow::Alone(run_tester(tester, &input, &queries, &bars)?)
+            }
+            Some(_) => Shadow::Judged(judge(&input, &queries, &entries, &bars)?),
         };
         bars.finish();
         lights.push((queries, shadow));
     }
     write(args, &view, &seen, &lights, &entries, embree.as_ref())?;
     if args.run.stats {
-        let runs =
-            view.scene.lights.iter().zip(&lights).map(|(l, (_, shadow))| (l.name.as_str(), shadow.run()));
+        let lights = view.scene.lights.iter().zip(&lights);
+        let runs = lights.filter_map(|(light, (_, shadow))| Some((light.name.as_str(), shadow.run()?)));
         eprint!("{}", statistics(&seen.hits, &seen.forest.statistics, runs));
     }
     messages.say(&format!("wrote {}", args.output.display()));
@@ -173,24 +190,26 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     Ok(if wrong { Outcome::NativeWrong } else { Outcome::Right })
 }
 
-/// The shadows of one light: the tester's answers, with or without a verdict on them.
+/// The shadows of one light: none, or the tester's answers, with or without a verdict on them.
 enum Shadow {
+    Off,
     Alone(TesterRun),
     Judged(LightVerdict),
 }
 
 impl Shadow {
-    fn run(&self) -> &TesterRun {
+    fn run(&self) -> Option<&TesterRun> {
         match self {
-            Shadow::Alone(run) => run,
+            Shadow::Off => None,
+            Shadow::Alone(run) => Some(run),
             // The tester of the picture is the first that is judged.
-            Shadow::Judged(verdict) => &verdict.testers[0].run,
+            Shadow::Judged(verdict) => Some(&verdict.testers[0].run),
         }
     }
 
     fn is_native_wrong(&self) -> bool {
         match self {
-            Shadow::Alone(_) => false,
+            Shadow::Off | Shadow::Alone(_) => false,
             Shadow::Judged(verdict) => {
                 verdict.testers.iter().any(|t| t.run.basis == Basis::Exact && t.counts.wrong > 0)
             }
@@ -206,13 +225,19 @@ fn write(
     entries: &[&TesterEntry],
     embree: Option<&EmbreeFacts>,
 ) -> Result<()> {
-    let runs: Vec<_> = lights.iter().map(|(queries, shadow)| (queries, shadow.run())).collect();
-    let mut planes = picture::shaded(view, seen, &runs)?;
+    let lighting: Vec<_> = lights
+        .iter()
+        .map(|(queries, shadow)| (queries, shadow.run().map_or(Lighting::Unshadowed, Lighting::from)))
+        .collect();
+    let mut planes = picture::shaded(view, seen, &lighting, args.switches.textures())?;
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
     let visible = &seen.forest.nodes;
     for (name, (queries, shadow)) in names.iter().zip(lights) {
         match shadow {
-            Shadow::Alone(run) => picture::add_mask(&mut planes, name, visible, queries, run)?,
+            Shadow::Off => {}
+            Shadow::Alone(run) => {
+                picture::add_mask(&mut planes, name, visible, queries, run.name, &run.occluded)?
+            }
             Shadow::Judged(verdict) => {
                 picture::add_light(&mut planes, name, visible, queries, verdict, &args.shadow)?;
             }
@@ -220,28 +245,37 @@ fn write(
     }
     let testers: Vec<_> = entries.iter().map(|entry| entry.name).collect();
     let settings = args.run.shadow_buffer();
-    picture::add_attributes(&mut planes, view, &testers, &args.shadow, embree, &settings)?;
+    picture::add_attributes(&mut planes, view, &testers, args.tester(), embree, &settings)?;
+    let left_out = args.switches.left_out();
+    picture::add_left_out(&mut planes, &left_out)?;
     let planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
     write_exr(&args.output, &planes)?;
-    output::write_preview(&args.output.with_extension("png"), &planes, args.run.exposure)?;
+    output::write_preview(
+        &args.output.with_extension("png"),
+        &planes,
+        view.scene.background,
+        args.run.exposure,
+    )?;
     let Some(path) = &args.json else { return Ok(()) };
-    let light_facts = |(light, (queries, run)): (&Light, &(&Queries, &TesterRun))| LightFacts {
+    let light_facts = |(light, (queries, shadow)): (&Light, &(Queries, Shadow))| LightFacts {
         name: light.name.clone(),
-        queries: queries.points.len() as u64,
+        queries: shadow.run().map_or(0, |run| run.occluded.len() as u64),
         facing_away: queries.facing_away.len() as u64,
         outside_cone: queries.outside_cone.len() as u64,
         not_receiving: queries.not_receiving.len() as u64,
-        shadowed: run.occluded.iter().filter(|&&o| o).count() as u64,
-        build_seconds: run.build_seconds,
-        ns_per_query: run.ns_per_query,
-        bytes: run.bytes,
+        shadowed: shadow.run().map(|run| run.occluded.iter().filter(|&&o| o).count() as u64),
+        build_seconds: shadow.run().map(|run| run.build_seconds),
+        ns_per_query: shadow.run().map(|run| run.ns_per_query),
+        bytes: shadow.run().map(|run| run.bytes),
     };
     let facts = Facts {
         scene: view.scene.name.clone(),
         width: view.size.width / args.subdivide,
         height: view.size.height / args.subdivide,
-        shadow: args.shadow.clone(),
-        lights: view.scene.lights.iter().zip(&runs).map(light_facts).collect(),
+        shadow: args.tester().map(str::to_owned),
+        first_hits: args.switches.look(args.trees.depth).first_hits.name(),
+        left_out,
+        lights: view.scene.lights.iter().zip(lights).map(light_facts).collect(),
     };
     output::write_json(path, &facts)
 }

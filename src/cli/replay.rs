@@ -2,7 +2,7 @@
 
 use super::options::{LightArgument, LightOptions, RunOptions, ViewOptions, parse_light_argument};
 use super::progress::Messages;
-use super::view::{Seen, View};
+use super::view::{LookRules, Seen, View};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
 use crate::report::replay::{
@@ -51,7 +51,7 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
     let view = View::load(&args.view, &lights, messages)?;
     let light =
         choose_light(&view.scene.lights, args.lights.iter().filter_map(LightArgument::name).next_back())?;
-    let seen = view.look(1, args.run.memory_limit())?;
+    let seen = view.look(LookRules::usual(1), args.run.memory_limit())?;
     let size = seen.hits.size;
     let [x, y] = args.pixel;
     if x >= size.width || y >= size.height {

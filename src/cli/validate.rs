@@ -5,13 +5,14 @@ use super::hard_cases;
 use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages};
 use super::testers::{TesterOptions, expect_lights};
-use super::view::{Seen, View};
+use super::view::{LookRules, Seen, View};
 use super::{output, picture};
 use crate::error::Result;
 use crate::film::{unique_safe_names, write_exr, write_false_colour};
 use crate::geometry::LightPosition;
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Skipped, Totals, Validation, WhySkipped};
+use crate::shading::Textures;
 use crate::shadow::Queries;
 use crate::shadow::{SceneIndex, TesterEntry, testers};
 use crate::verdict::{LightVerdict, Progress, check_arbiter, judge};
@@ -75,7 +76,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     // A byte an answer until all testers of a light have been judged.
     let answers = view.size.pixels() as u64 * entries.len() as u64;
     limit.check(format!("the answers of {} testers", entries.len()), answers)?;
-    let seen = view.look(args.trees.depth, limit)?;
+    let seen = view.look(LookRules::usual(args.trees.depth), limit)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
@@ -182,7 +183,9 @@ fn write_all(
     judged: &[(Queries, LightVerdict)],
     report: &Validation,
 ) -> Result<()> {
-    let mut planes = picture::shaded(view, seen, &picture::runs_of(judged, &args.testers.shadow)?)?;
+    let runs = picture::runs_of(judged, &args.testers.shadow)?;
+    let lighting: Vec<_> = runs.iter().map(|&(queries, run)| (queries, run.into())).collect();
+    let mut planes = picture::shaded(view, seen, &lighting, Textures::On)?;
     output::folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
     for (name, (queries, verdict)) in names.iter().zip(judged) {
@@ -195,10 +198,10 @@ fn write_all(
     let has_mask = |name: &str| judged.iter().any(|(_, verdict)| verdict.tester(name).is_some());
     let testers: Vec<_> = testers().map(|entry| entry.name).filter(|name| has_mask(name)).collect();
     let settings = args.run.shadow_buffer();
-    let embree = report.embree.as_ref();
-    picture::add_attributes(&mut planes, view, &testers, &args.testers.shadow, embree, &settings)?;
+    let (tester, embree) = (Some(args.testers.shadow.as_str()), report.embree.as_ref());
+    picture::add_attributes(&mut planes, view, &testers, tester, embree, &settings)?;
     write_exr(&file("image.exr"), &planes)?;
-    output::write_preview(&file("image.png"), &planes, args.run.exposure)?;
+    output::write_preview(&file("image.png"), &planes, view.scene.background, args.run.exposure)?;
     output::write_json(&file("validate.json"), report)?;
     if let Some(path) = &args.json {
         output::write_json(path, report)?;

@@ -5,9 +5,9 @@ use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::memory::MemoryLimit;
 use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
-use crate::shading::{RayForest, ShadedPoint};
+use crate::shading::{RayForest, ShadedPoint, TreeRules};
 use crate::shadow::REGISTRY;
-use crate::visibility::{FirstHits, SurfacePoint, VisibleSurfaces, t_buffer};
+use crate::visibility::{FirstHitMethod, FirstHits, SurfacePoint, VisibleSurfaces};
 use glam::Vec3;
 
 /// The size of an image where neither the options nor the camera say one.
@@ -64,11 +64,11 @@ impl View {
         Ok(())
     }
 
-    /// First hits by the t-buffer, and the ray trees behind them of so many rays one behind the other.
+    /// First hits, and the ray trees behind them.
     ///
     /// # Errors
     /// If the image with the masks of all lights would need more memory than the limit.
-    pub fn look(&self, depth: u32, limit: MemoryLimit) -> Result<Seen> {
+    pub fn look(&self, rules: LookRules, limit: MemoryLimit) -> Result<Seen> {
         let lights = self.scene.lights.len() as u64;
         let what = format!(
             "an image of {}x{} pixels with {}",
@@ -77,10 +77,10 @@ impl View {
             if lights == 1 { "a light".into() } else { format!("{lights} lights") }
         );
         limit.check(what, self.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
-        let hits = t_buffer::first_hits(&self.scene, &self.camera, self.size);
+        let hits = rules.first_hits.first_hits(&self.scene, &self.camera, self.size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
         let eye_rays = self.size.pixels() as u64;
-        let forest = RayForest::grow(&self.scene, visible, eye_rays, depth);
+        let forest = RayForest::grow(&self.scene, visible, eye_rays, rules.trees);
         Ok(Seen { hits, forest })
     }
 }
@@ -94,6 +94,22 @@ const PIXEL_BYTES: u64 =
 
 /// Bytes of a pixel a light: its query, and a mask and a plane a tester.
 const LIGHT_BYTES: u64 = size_of::<SurfacePoint>() as u64 + 4 + 5 * (REGISTRY.len() as u64 + 2);
+
+/// How a view is looked at.
+#[derive(Debug, Clone, Copy)]
+pub struct LookRules {
+    /// Who finds first hits.
+    pub first_hits: FirstHitMethod,
+    /// How ray trees grow.
+    pub trees: TreeRules,
+}
+
+impl LookRules {
+    /// By the t-buffer, with all rays, so many one behind the other.
+    pub fn usual(depth: u32) -> LookRules {
+        LookRules { first_hits: FirstHitMethod::TBuffer, trees: TreeRules::of_depth(depth) }
+    }
+}
 
 /// What the camera sees.
 pub struct Seen {

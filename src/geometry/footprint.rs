@@ -31,6 +31,17 @@ impl Grid {
             .map(|(sx, sy)| [x + sx * self.half[0], y + sy * self.half[1]])
     }
 
+    /// First and last box along one axis that a range of coordinates can touch.
+    pub(crate) fn touched(&self, axis: usize, range: [f64; 2]) -> Option<[u32; 2]> {
+        let index = |value: f64| (value - self.origin[axis]) / self.step[axis];
+        let half = self.half[axis] / self.step[axis].abs();
+        let (a, b) = (index(range[0]), index(range[1]));
+        let margin = 1e-9 * (1.0 + f64::from(self.count[axis]));
+        let first = (a.min(b) - half - margin).ceil().max(0.0);
+        let last = (a.max(b) + half + margin).floor().min(f64::from(self.count[axis] - 1));
+        (first <= last).then_some([first as u32, last as u32])
+    }
+
     fn centre(&self, column: u32, row: u32) -> [f64; 2] {
         [self.origin[0] + self.step[0] * f64::from(column), self.origin[1] + self.step[1] * f64::from(row)]
     }
@@ -72,10 +83,31 @@ impl Frame {
         DVec3::new(self.dual[0].dot(v), self.dual[1].dot(v), self.dual[2].dot(v))
     }
 
+    /// Where a point in front of the apex is on the plane z = 1; `None` if it is too near to the plane through the
+    /// apex, or behind it. For projections from the origin.
+    pub(crate) fn project(&self, v: DVec3) -> Option<OnGrid> {
+        let c = self.coordinates(v);
+        let slack = RELATIVE_SLACK * c.abs().max_element();
+        if c.z.is_nan() || c.z <= 1024.0 * slack {
+            return None;
+        }
+        let on_grid = [c.x / c.z, c.y / c.z];
+        let error = 4.0 * slack * (1.0 + on_grid[0].abs().max(on_grid[1].abs())) / c.z;
+        Some(OnGrid { on_grid, error })
+    }
+
     /// How far the coordinates of a vector may be off whose own are wrong by one roundoff.
     fn coordinate_error(&self, v: DVec3) -> DVec3 {
         DVec3::from_array(self.dual.map(|row| row.abs().dot(v.abs()))) * (16.0 * ROUNDOFF)
     }
+}
+
+/// A projected point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OnGrid {
+    pub on_grid: [f64; 2],
+    /// The most that either coordinate is wrong by.
+    pub error: f64,
 }
 
 /// A linear function a x + b y + c on the grid plane whose values are wrong by at most `slack`.
@@ -192,8 +224,8 @@ impl Footprint {
                 Clipped::around(corners, planes.corners.map(|u| frame.coordinate_error(u)))
             }
         };
-        let columns = box_range(grid, 0, clipped.x)?;
-        let rows = box_range(grid, 1, clipped.y)?;
+        let columns = grid.touched(0, clipped.x)?;
+        let rows = grid.touched(1, clipped.y)?;
         Some(Footprint {
             edges: [0, 1, 2].map(|i| Linear::edge(&planes.edges[i], planes.offsets[i], frame, reach)),
             depth: Depth::new(planes, frame, reach),
@@ -348,15 +380,4 @@ fn clip(polygon: &[DVec3], distance: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
         }
     }
     inside
-}
-
-/// The boxes of one axis that a range of grid coordinates can touch.
-fn box_range(grid: &Grid, axis: usize, range: [f64; 2]) -> Option<[u32; 2]> {
-    let index = |value: f64| (value - grid.origin[axis]) / grid.step[axis];
-    let half = grid.half[axis] / grid.step[axis].abs();
-    let (a, b) = (index(range[0]), index(range[1]));
-    let margin = 1e-9 * (1.0 + f64::from(grid.count[axis]));
-    let first = (a.min(b) - half - margin).ceil().max(0.0);
-    let last = (a.max(b) + half + margin).floor().min(f64::from(grid.count[axis] - 1));
-    (first <= last).then_some([first as u32, last as u32])
 }

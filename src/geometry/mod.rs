@@ -19,6 +19,7 @@ mod light_position;
 pub mod light_triangle;
 mod number;
 pub mod occlusion;
+pub(crate) mod outline;
 pub mod planes;
 pub mod position;
 pub mod ray_triangle;

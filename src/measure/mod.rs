@@ -1,8 +1,12 @@
-//! Running testers over many queries and timing what they do.
+//! Running testers over many queries and timing what they do. Each paper that is reproduced has a room.
 
+pub mod fit;
+pub mod haines_greenberg;
+pub mod raghuvanshi_dhande;
 mod repeated;
-pub mod reproduction;
 mod run;
+mod sample;
 
 pub use repeated::Repeated;
 pub use run::{Answers, Question, Timed, answer, soft_light, timed};
+pub use sample::Errors;

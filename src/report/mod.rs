@@ -1,8 +1,11 @@
-//! What a run says: JSON documents, tables for people, image planes and previews.
+//! What a run says: JSON documents, tables for people, image planes and previews. Each paper that is reproduced has
+//! a room.
 
+pub mod haines_greenberg;
 pub mod hard_cases;
 pub mod images;
+mod plot;
+pub mod raghuvanshi_dhande;
 pub mod replay;
-pub mod reproduction;
 pub mod table;
 pub mod validation;

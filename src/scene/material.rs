@@ -21,13 +21,6 @@ pub struct Material {
     pub texture: Option<u32>,
 }
 
-impl Material {
-    /// Whether it sends rays on: a mirror, or what light passes through.
-    pub fn sends_rays(&self) -> bool {
-        self.mirror != [0.0; 3] || self.transmission.is_some()
-    }
-}
-
 /// How a surface lets light pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transmission {

@@ -13,7 +13,10 @@ mod texture;
 
 pub use light::{LightSample, sample_light};
 pub use normal::{geometric_normal, normal_at, shading_normal};
-pub use picture::{ShadedPoint, shade_picture};
-pub use ray_tree::{Branch, Kind, RayForest, TreeStatistics, USUAL_DEPTH, branches, reflected, refracted};
+pub use picture::{ShadedPoint, Textures, shade_picture};
+pub use ray_tree::{
+    Branch, Following, Kind, RayForest, TreeRules, TreeStatistics, USUAL_DEPTH, branches, reflected,
+    refracted,
+};
 pub use shade::{Ambient, shade};
 pub use texture::surface_colour;

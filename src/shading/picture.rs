@@ -19,6 +19,16 @@ pub struct ShadedPoint {
     pub depth: f64,
 }
 
+/// Whether textures are looked at (2004 paper, section IV: a switch of REALITY).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Textures {
+    /// Surfaces have the colours of theirs.
+    #[default]
+    On,
+    /// Every surface has the one colour of its material.
+    Off,
+}
+
 /// Shades what the camera sees, with what it sees in mirrors and through glass. `arriving[l][i]` is the share
 /// of light l that arrives at point i of the forest.
 pub fn shade_picture(
@@ -27,6 +37,7 @@ pub fn shade_picture(
     lights: &[Light],
     forest: &RayForest,
     arriving: &[Vec<[f32; 3]>],
+    textures: Textures,
 ) -> Vec<ShadedPoint> {
     let ambient = Ambient::default();
     let nodes = &forest.nodes;
@@ -43,7 +54,7 @@ pub fn shade_picture(
                 Some(LightSample { irradiance, ..sample })
             };
             let samples: Vec<LightSample> = seen.filter_map(sample).collect();
-            shade_point(scene, camera, point, &ambient, &samples)
+            shade_point(scene, camera, point, &ambient, &samples, textures)
         })
         .collect();
     if shaded.len() > nodes.seen || !forest.sky.is_empty() {
@@ -82,6 +93,7 @@ fn shade_point(
     point: &SurfacePoint,
     ambient: &Ambient,
     samples: &[LightSample],
+    textures: Textures,
 ) -> ShadedPoint {
     let from_eye = point.position - camera.origin.as_dvec3();
     let depth = from_eye.dot(camera.forward.as_dvec3());
@@ -92,10 +104,12 @@ fn shade_point(
     let view = -direction.as_dvec3().normalize();
     let normal = normal_at(scene, primitive, point.position, view);
     let material = scene.material(primitive);
-    let albedo = surface_colour(scene, primitive, material, point.position);
-    let radiance = match material.texture {
-        None => shade(material, normal, view, ambient, samples),
-        Some(_) => shade(&material.painted(albedo), normal, view, ambient, samples),
+    let (albedo, radiance) = match (textures, material.texture) {
+        (Textures::Off, _) | (_, None) => (material.diffuse, shade(material, normal, view, ambient, samples)),
+        (Textures::On, Some(_)) => {
+            let albedo = surface_colour(scene, primitive, material, point.position);
+            (albedo, shade(&material.painted(albedo), normal, view, ambient, samples))
+        }
     };
     ShadedPoint { radiance, normal, albedo, depth }
 }

@@ -4,6 +4,7 @@ use super::hit::{Hit, keep_nearer};
 use crate::geometry::curved::RayStart;
 use crate::geometry::curved::hull::{self, Hull};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
+use crate::geometry::outline::{Outline, Projected};
 use crate::geometry::planes::OrientedPlanes;
 use crate::scene::{Camera, PrimitiveIndex, Raster, Scene};
 use rayon::prelude::*;
@@ -20,7 +21,9 @@ pub(super) struct CurvedCast {
 enum Rays {
     /// Any.
     All,
-    /// Those that one of these projections covers.
+    /// Those of an outline.
+    Within(Outline),
+    /// Those that one of these projections covers: of a hull that is not all before the camera.
     Covered(Vec<Footprint>),
 }
 
@@ -50,8 +53,14 @@ impl CurvedCast {
     ) -> Option<CurvedCast> {
         let shape = scene.shape(primitive)?;
         let Some(hull) = hull::outer(shape) else { return Some(CurvedCast { primitive, rays: Rays::All }) };
-        let footprints = footprints(&hull, camera, grid, frame);
-        (!footprints.is_empty()).then_some(CurvedCast { primitive, rays: Rays::Covered(footprints) })
+        let apex = camera.origin.as_dvec3();
+        let rays = match Outline::project(grid, frame, hull.iter().map(|triangle| triangle.map(|p| p - apex)))
+        {
+            Projected::Nowhere => return None,
+            Projected::Within(outline) => Rays::Within(outline),
+            Projected::TooNear => Rays::Covered(footprints(&hull, camera, grid, frame)),
+        };
+        Some(CurvedCast { primitive, rays })
     }
 
     /// Casts into a band of rows; returns the number of rays tested.
@@ -64,32 +73,40 @@ impl CurvedCast {
         first_row: u32,
         items: &mut [Option<Hit>],
     ) -> u64 {
-        let start = RayStart::origin();
+        let width = grid.count[0];
+        let rows = [first_row, first_row + (items.len() / width as usize) as u32];
         let mut tests = 0;
-        for (line, row) in items.chunks_mut(grid.count[0] as usize).zip(first_row..) {
-            let Some([left, right]) = self.span(grid, row) else { continue };
+        let mut cast = |(row, [left, right]): (u32, [u32; 2])| {
             tests += u64::from(right - left + 1);
+            let line = (row - first_row) as usize * width as usize;
             for column in left..=right {
                 let direction = camera.direction(raster, column, row);
+                let start = RayStart::origin();
                 if let Some(hit) = Hit::curved(scene, self.primitive, camera.origin, direction, &start) {
-                    keep_nearer(&mut line[column as usize], hit, scene, camera.origin, direction);
+                    let item = &mut items[line + column as usize];
+                    keep_nearer(item, hit, scene, camera.origin, direction);
                 }
+            }
+        };
+        match &self.rays {
+            Rays::All => (rows[0]..rows[1]).for_each(|row| cast((row, [0, width - 1]))),
+            Rays::Within(outline) => outline.spans(rows).for_each(cast),
+            Rays::Covered(footprints) => {
+                let span = |row| Some((row, covered(footprints, grid, row)?));
+                (rows[0]..rows[1]).filter_map(span).for_each(cast);
             }
         }
         tests
     }
+}
 
-    /// First and last column in one row, if any.
-    fn span(&self, grid: &Grid, row: u32) -> Option<[u32; 2]> {
-        match &self.rays {
-            Rays::All => Some([0, grid.count[0] - 1]),
-            Rays::Covered(footprints) => footprints
-                .iter()
-                .filter(|footprint| (footprint.rows()[0]..=footprint.rows()[1]).contains(&row))
-                .filter_map(|footprint| footprint.span(grid, row))
-                .reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]),
-        }
-    }
+/// First and last column in one row, if any.
+fn covered(footprints: &[Footprint], grid: &Grid, row: u32) -> Option<[u32; 2]> {
+    footprints
+        .iter()
+        .filter(|footprint| (footprint.rows()[0]..=footprint.rows()[1]).contains(&row))
+        .filter_map(|footprint| footprint.span(grid, row))
+        .reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
 }
 
 fn footprints(hull: &Hull, camera: &Camera, grid: &Grid, frame: &Frame) -> Vec<Footprint> {

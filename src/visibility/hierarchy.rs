@@ -1,11 +1,12 @@
 //! First hits of any rays through a hierarchy of boxes: what rays of reflection and refraction ask (row 22 of
 //! the notes on the 1986 paper).
 
-use super::hit::{Hit, is_there_beyond, keep_nearer};
+use super::hit::{FirstHits, Hit, is_there_beyond, keep_nearer};
 use crate::geometry::curved::{Crossing, RayStart};
 use crate::geometry::ray_triangle;
-use crate::scene::{Primitive, PrimitiveIndex, Scene};
+use crate::scene::{Camera, ImageSize, Primitive, PrimitiveIndex, Scene};
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 /// Most primitives of a leaf.
 const LEAF: usize = 4;
@@ -44,6 +45,22 @@ enum Content {
     Leaf(std::ops::Range<u32>),
     /// Two nodes.
     Inner(u32, u32),
+}
+
+/// First hits of a camera's rays, one by one.
+pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
+    let hierarchy = Hierarchy::new(scene);
+    let raster = camera.raster(size);
+    let found: Vec<(Option<FirstHit>, u64)> = (0..size.pixels() as u32)
+        .into_par_iter()
+        .map(|pixel| {
+            let direction = camera.direction(&raster, pixel % size.width, pixel / size.width);
+            hierarchy.search(&Ray { origin: camera.origin, direction, start: RayStart::origin() })
+        })
+        .collect();
+    let tests = found.iter().map(|(_, tests)| tests).sum();
+    let primitives = found.into_iter().map(|(hit, _)| hit.map(|hit| hit.primitive)).collect();
+    FirstHits { size, primitives, tests }
 }
 
 /// All primitives of a scene in a tree of boxes.
@@ -96,7 +113,13 @@ impl<'a> Hierarchy<'a> {
 
     /// What a ray hits first, by the rule of the t-buffer.
     pub fn first_hit(&self, ray: &Ray) -> Option<FirstHit> {
+        self.search(ray).0
+    }
+
+    /// The same, and the number of primitives that were tested.
+    fn search(&self, ray: &Ray) -> (Option<FirstHit>, u64) {
         let mut nearest = None;
+        let mut tests = self.endless.len() as u64;
         for &primitive in &self.endless {
             self.try_primitive(ray, primitive, &mut nearest);
         }
@@ -113,6 +136,7 @@ impl<'a> Hierarchy<'a> {
             }
             match &self.nodes[node as usize].content {
                 Content::Leaf(range) => {
+                    tests += range.len() as u64;
                     for &primitive in &self.order[range.start as usize..range.end as usize] {
                         self.try_primitive(ray, primitive, &mut nearest);
                     }
@@ -127,7 +151,7 @@ impl<'a> Hierarchy<'a> {
                 }
             }
         }
-        nearest.map(|hit| FirstHit { primitive: hit.primitive, crossing: hit.crossing })
+        (nearest.map(|hit| FirstHit { primitive: hit.primitive, crossing: hit.crossing }), tests)
     }
 
     fn try_primitive(&self, ray: &Ray, primitive: PrimitiveIndex, nearest: &mut Option<Hit>) {
@@ -213,14 +237,9 @@ mod tests {
             let camera = Camera::look_at("c", Vec3::from(eye), Vec3::ZERO, Vec3::Y, 70.0);
             let size = ImageSize { width: 23, height: 17 };
             let expected = classical::first_hits(&scene, &camera, size);
-            let hierarchy = Hierarchy::new(&scene);
-            let raster = camera.raster(size);
-            for (pixel, expected) in expected.primitives.iter().enumerate() {
-                let (x, y) = (pixel as u32 % size.width, pixel as u32 / size.width);
-                let direction = camera.direction(&raster, x, y);
-                let ray = Ray { origin: camera.origin, direction, start: RayStart::origin() };
-                prop_assert_eq!(hierarchy.first_hit(&ray).map(|hit| hit.primitive), *expected);
-            }
+            let found = first_hits(&scene, &camera, size);
+            prop_assert_eq!(&found.primitives, &expected.primitives);
+            prop_assert!(found.tests <= expected.tests);
         }
 
         /// From where a ray hits something, the rest of it does not hit that point again.

@@ -4,9 +4,11 @@ pub mod classical;
 mod curved_cast;
 pub mod hierarchy;
 mod hit;
+mod method;
 mod surface_point;
 pub mod t_buffer;
 
 pub use hit::FirstHits;
 pub(crate) use hit::{Hit, is_there, keep_nearer};
+pub use method::FirstHitMethod;
 pub use surface_point::{PointSource, SurfacePoint, VisibleSurfaces};

@@ -10,7 +10,7 @@ use super::curved_cast::CurvedCast;
 use super::hit::{FirstHits, Hit, is_there, keep_nearer};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::ray_triangle::RayTriangle;
-use crate::scene::{Camera, ImageSize, Object, PrimitiveIndex, Raster, Scene};
+use crate::scene::{Camera, ImageSize, PrimitiveIndex, Raster, Scene};
 use rayon::prelude::*;
 
 /// Rows that one task fills.
@@ -41,28 +41,26 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
     let frame = Frame::perspective(x, y, z);
     let mut items: Vec<Option<Hit>> = vec![None; size.pixels()];
     let mut tests = 0;
-    for object in &scene.objects {
-        for chunk in chunks(object) {
-            let casts: Vec<Cast> = chunk
-                .into_par_iter()
-                .filter_map(|primitive| {
-                    let triangle = RayTriangle::new(camera.origin, scene.corners(primitive))?;
-                    let footprint = Footprint::new(&grid, &frame, triangle.planes())?;
-                    Some(Cast { primitive, triangle, footprint })
-                })
-                .collect();
-            tests += items
-                .par_chunks_mut(BAND_ROWS * size.width as usize)
-                .enumerate()
-                .map(|(band, items)| {
-                    let first_row = (band * BAND_ROWS) as u32;
-                    casts
-                        .iter()
-                        .map(|cast| fill(cast, scene, camera, &raster, &grid, first_row, items))
-                        .sum::<u64>()
-                })
-                .sum::<u64>();
-        }
+    for chunk in chunks(scene) {
+        let casts: Vec<Cast> = chunk
+            .into_par_iter()
+            .filter_map(|primitive| {
+                let triangle = RayTriangle::new(camera.origin, scene.corners(primitive))?;
+                let footprint = Footprint::new(&grid, &frame, triangle.planes())?;
+                Some(Cast { primitive, triangle, footprint })
+            })
+            .collect();
+        tests += items
+            .par_chunks_mut(BAND_ROWS * size.width as usize)
+            .enumerate()
+            .map(|(band, items)| {
+                let first_row = (band * BAND_ROWS) as u32;
+                casts
+                    .iter()
+                    .map(|cast| fill(cast, scene, camera, &raster, &grid, first_row, items))
+                    .sum::<u64>()
+            })
+            .sum::<u64>();
     }
     for chunk in CurvedCast::chunks(scene, camera, &grid, &frame) {
         tests += items
@@ -126,9 +124,11 @@ fn pixel_grid(raster: &Raster, size: ImageSize) -> Grid {
     }
 }
 
-fn chunks(object: &Object) -> impl Iterator<Item = std::ops::Range<PrimitiveIndex>> {
-    let end = object.first + object.count;
-    (object.first..end).step_by(CHUNK).map(move |start| start..end.min(start + CHUNK as u32))
+/// The triangles of all objects, one after the other. The order is of no consequence: a tie is decided by what is
+/// hit, and not by when.
+fn chunks(scene: &Scene) -> impl Iterator<Item = std::ops::Range<PrimitiveIndex>> {
+    let end = scene.triangles.len() as u32;
+    (0..end).step_by(CHUNK).map(move |start| start..end.min(start + CHUNK as u32))
 }
 
 #[cfg(test)]

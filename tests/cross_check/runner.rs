@@ -4,7 +4,7 @@ use crate::cases::Case;
 use lightbuffer::geometry::LightPosition;
 use lightbuffer::measure::{Question, answer};
 use lightbuffer::scene::{Light, PrimitiveIndex};
-use lightbuffer::shading::RayForest;
+use lightbuffer::shading::{RayForest, TreeRules};
 use lightbuffer::shadow::Queries;
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
@@ -56,7 +56,8 @@ impl<'a> Asked<'a> {
     pub fn with_trees(case: &'a Case, depth: u32) -> Asked<'a> {
         let hits = t_buffer::first_hits(&case.scene, &case.camera, case.size);
         let visible = VisibleSurfaces::new(&case.scene, &case.camera, &hits);
-        let forest = RayForest::grow(&case.scene, visible, case.size.pixels() as u64, depth);
+        let forest =
+            RayForest::grow(&case.scene, visible, case.size.pixels() as u64, TreeRules::of_depth(depth));
         let queries = |light: &Light| (light.position(), Queries::new(&case.scene, &forest.nodes, light));
         Asked { case, index: SceneIndex::new(&case.scene), lights: case.lights.iter().map(queries).collect() }
     }

@@ -1,5 +1,5 @@
 //! Scenes that are made and not read: the seven environments of the 1986 paper, by our own design after its
-//! counts, and the Standard Procedural Databases.
+//! counts, the Standard Procedural Databases, and the scenes of the t-buffer paper.
 //!
 //! Each is a function of nothing but its size factor: random numbers come from a generator of ours and
 //! trigonometry from `libm`, so that a scene has the same bits everywhere.
@@ -16,6 +16,8 @@ mod highchair;
 mod house_of_cards;
 mod kitchen;
 mod spd;
+mod stack;
+mod three_spheres;
 
 #[cfg(test)]
 mod tests;

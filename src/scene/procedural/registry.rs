@@ -1,6 +1,8 @@
 //! The scenes by name.
 
-use super::{chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen, spd};
+use super::{
+    chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen, spd, stack, three_spheres,
+};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 
@@ -35,7 +37,8 @@ enum Make {
     Sized(fn(u32) -> Result<Scene>),
 }
 
-/// All of them: the environments of the paper in its order, then the databases in theirs.
+/// All of them: the environments of the paper in its order, the databases in theirs, and the scenes of the t-buffer
+/// paper.
 pub const BUILTIN: &[Builtin] = &[
     fixed("chessboard", "a game of chess after four moves (figure 5)", chessboard::build),
     fixed("house-of-cards", "forty cards on a polished table (figure 6)", house_of_cards::build),
@@ -55,6 +58,23 @@ pub const BUILTIN: &[Builtin] = &[
     sized("teapot", "Newell's teapot on a chequered ground", [2, 12, 1000], spd::teapot),
     sized("tetra", "Sierpinski's tetrahedron", [1, 6, 11], spd::tetra),
     sized("tree", "a tree of cones and spheres under seven lights", [1, 11, 18], spd::tree),
+    fixed(
+        "three-spheres",
+        "three stacked spheres on an infinite ground (2004, figure 9)",
+        three_spheres::build,
+    ),
+    sized(
+        "stacked-spheres",
+        "spheres that fill the view (2004, figure 12)",
+        [1, 50, 100_000],
+        stack::spheres,
+    ),
+    sized(
+        "stacked-triangles",
+        "triangles that fill the view (2004, figure 12)",
+        [1, 50, 100_000],
+        stack::triangles,
+    ),
 ];
 
 const fn fixed(name: &'static str, summary: &'static str, make: fn() -> Result<Scene>) -> Builtin {

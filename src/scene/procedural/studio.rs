@@ -4,7 +4,8 @@ use super::shapes::Body;
 use crate::error::Result;
 use crate::scene::formats::BUILTIN_PREFIX;
 use crate::scene::{
-    Camera, Falloff, ImageSize, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder, Transmission,
+    Camera, Falloff, ImageSize, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder, Texture,
+    Transmission,
 };
 use glam::Vec3;
 
@@ -25,6 +26,14 @@ impl Studio {
     /// A material by its number.
     pub fn material(&mut self, material: Material) -> u32 {
         self.builder.add_material(material)
+    }
+
+    /// A texture by its number.
+    ///
+    /// # Errors
+    /// As [`SceneBuilder::add_texture`].
+    pub fn texture(&mut self, texture: Texture) -> Result<u32> {
+        self.builder.add_texture(texture)
     }
 
     /// Adds an object.

@@ -97,7 +97,7 @@ fn loading_by_name_is_building() {
     assert!(error.to_string().starts_with("no built-in scene `nothing`"));
 }
 
-/// Triangles, curved surfaces, objects and polygons of a database by its size factor.
+/// Triangles, curved surfaces, objects and polygons of a scene by its size factor.
 fn expected(name: &str, size: u32) -> [u64; 4] {
     let n = u64::from(size);
     match name {
@@ -121,6 +121,8 @@ fn expected(name: &str, size: u32) -> [u64; 4] {
             let branches = 2u64.pow(size + 1) - 1;
             [2, 2 * branches, branches + 1, 1]
         }
+        "stacked-spheres" => [0, n, n, 0],
+        "stacked-triangles" => [n, 0, n, n],
         _ => panic!("{name}"),
     }
 }

@@ -17,6 +17,40 @@ use rayon::prelude::*;
 /// How deep trees are unless something else is asked for: as deep as those of the 1986 paper.
 pub const USUAL_DEPTH: u32 = 5;
 
+/// Whether rays of a kind are followed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Following {
+    /// They are.
+    #[default]
+    On,
+    /// Nothing is computed for them.
+    Off,
+}
+
+/// How trees grow. Reflections can be switched as in REALITY (2004 paper, section IV).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TreeRules {
+    /// The most rays one behind the other: with 1 a tree is what the camera sees.
+    pub depth: u32,
+    /// Rays of mirrors and of total reflection.
+    pub reflections: Following,
+    /// Rays that pass through transparent surfaces.
+    pub refractions: Following,
+}
+
+impl TreeRules {
+    /// Everything is followed, so many rays one behind the other.
+    pub fn of_depth(depth: u32) -> TreeRules {
+        TreeRules { depth, reflections: Following::On, refractions: Following::On }
+    }
+
+    /// Whether a surface of a material sends rays on.
+    fn follow(&self, material: &Material) -> bool {
+        let mirrors = self.reflections == Following::On && material.mirror != [0.0; 3];
+        mirrors || (self.refractions == Following::On && material.transmission.is_some())
+    }
+}
+
 /// Rays and hits of all trees of a picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
 pub struct TreeStatistics {
@@ -66,19 +100,18 @@ struct Twig {
 }
 
 impl RayForest {
-    /// Grows the trees of what a camera sees, of `eye_rays` rays, with at most `depth` rays one behind the other:
-    /// with 1 they are what the camera sees.
-    pub fn grow(scene: &Scene, seen: VisibleSurfaces, eye_rays: u64, depth: u32) -> RayForest {
+    /// Grows the trees of what a camera sees, of `eye_rays` rays.
+    pub fn grow(scene: &Scene, seen: VisibleSurfaces, eye_rays: u64, rules: TreeRules) -> RayForest {
         let hits = seen.points.len();
         let statistics =
             TreeStatistics { eye_rays, eye_hits: hits as u64, depth: 1, ..TreeStatistics::default() };
         let mut forest =
             RayForest { weights: vec![[1.0; 3]; hits], nodes: seen, sky: Vec::new(), statistics };
-        if scene.materials.iter().any(Material::sends_rays) {
+        if scene.materials.iter().any(|material| rules.follow(material)) {
             let hierarchy = Hierarchy::new(scene);
             let mut first = 0;
-            for _ in 1..depth {
-                let twigs = forest.sprout(scene, first);
+            for _ in 1..rules.depth {
+                let twigs = forest.sprout(scene, first, &rules);
                 first = forest.nodes.points.len();
                 if twigs.is_empty() {
                     break;
@@ -92,7 +125,7 @@ impl RayForest {
     }
 
     /// The rays that leave the nodes from a number on, in their order.
-    fn sprout(&mut self, scene: &Scene, first: usize) -> Vec<Twig> {
+    fn sprout(&mut self, scene: &Scene, first: usize, rules: &TreeRules) -> Vec<Twig> {
         let points = self.nodes.points[first..].par_iter();
         let sprouted: Vec<(Vec<Twig>, TreeStatistics)> = points
             .enumerate()
@@ -101,7 +134,7 @@ impl RayForest {
                 let (pixel, weight) = (self.nodes.pixels[node], self.weights[node]);
                 let mut counts = TreeStatistics::default();
                 let mut twigs = Vec::new();
-                for branch in branches(scene, point) {
+                for branch in branches(scene, point, rules) {
                     let weight = std::array::from_fn(|c| weight[c] * branch.share[c]);
                     match branch.ray {
                         Some(ray) => {

@@ -1,6 +1,7 @@
 //! The rays that leave a point where a ray hits something.
 
 use super::branch::{reflected, refracted};
+use super::{Following, TreeRules};
 use crate::geometry::curved::{Crossing, RayStart};
 use crate::geometry::planes::orientation;
 use crate::geometry::{LightPosition, Sign};
@@ -72,11 +73,11 @@ impl Hit {
     }
 }
 
-/// The rays of reflection and refraction of a point; none for a point on no surface.
-pub fn branches(scene: &Scene, point: &SurfacePoint) -> Vec<Branch> {
+/// The rays of reflection and refraction of a point that the rules follow; none for a point on no surface.
+pub fn branches(scene: &Scene, point: &SurfacePoint, rules: &TreeRules) -> Vec<Branch> {
     let Some(hit) = Hit::of(point) else { return Vec::new() };
     let material = scene.material(hit.primitive);
-    if !material.sends_rays() {
+    if !rules.follow(material) {
         return Vec::new();
     }
     let direction = hit.direction.as_dvec3().normalize();
@@ -84,17 +85,19 @@ pub fn branches(scene: &Scene, point: &SurfacePoint) -> Vec<Branch> {
     let leave = |towards: DVec3, side: Side| leave(scene, point, &hit, towards, side);
     let mirrored = || leave(reflected(direction, normal), Side::Viewer);
     let mut branches = Vec::new();
-    if material.mirror != [0.0; 3] {
+    if rules.reflections == Following::On && material.mirror != [0.0; 3] {
         branches.push(Branch { kind: Kind::Reflection, share: material.mirror, ray: mirrored() });
     }
-    if let Some(transmission) = material.transmission {
+    if let (Following::On, Some(transmission)) = (rules.refractions, material.transmission) {
         let index = f64::from(transmission.refractive_index);
         let ratio = if hit.comes_from_outside(scene) { 1.0 / index } else { index };
         let (kind, ray) = match refracted(direction, normal, ratio) {
             Some(bent) => (Kind::Refraction, leave(bent, Side::Beyond)),
             None => (Kind::TotalReflection, mirrored()),
         };
-        branches.push(Branch { kind, share: transmission.transmittance, ray });
+        if kind != Kind::TotalReflection || rules.reflections == Following::On {
+            branches.push(Branch { kind, share: transmission.transmittance, ray });
+        }
     }
     branches
 }

@@ -7,6 +7,32 @@ use crate::shadow::exact::{Arbiter, Contact, Occlusion};
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 
+/// Answers that are not true, each way round.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Errors {
+    /// Lit, and called occluded.
+    pub false_shadow: u64,
+    /// Occluded, and called lit.
+    pub false_light: u64,
+}
+
+impl Errors {
+    /// Of answers to the same queries, in the same order.
+    pub fn of(answers: &[bool], truth: &[bool]) -> Errors {
+        let mut errors = Errors::default();
+        for (answer, truth) in answers.iter().zip(truth) {
+            errors.false_shadow += u64::from(*answer && !truth);
+            errors.false_light += u64::from(!answer && *truth);
+        }
+        errors
+    }
+
+    /// Both.
+    pub fn wrong(self) -> u64 {
+        self.false_shadow + self.false_light
+    }
+}
+
 /// Queries and the truth about them.
 pub(super) struct Sample {
     /// The queries, by their places in the list of all.
@@ -60,6 +86,11 @@ impl Sample {
     /// Those that are occluded.
     pub fn occluded(&self) -> u64 {
         self.truths.iter().filter(|truth| truth.occluded).count() as u64
+    }
+
+    /// Whether each of them is occluded.
+    pub fn truth(&self) -> Vec<bool> {
+        self.truths.iter().map(|truth| truth.occluded).collect()
     }
 
     /// How many answers are not true.

@@ -6,11 +6,11 @@
 
 mod column;
 mod looks;
-mod truth;
 
 pub use column::{Column, Lists, MeasuredColumn};
 pub use looks::ViewOfScene;
 
+use super::sample::{AnswersTo, Sample, unlike};
 use super::{Answers, Question, Repeated, answer, timed};
 use crate::error::Result;
 use crate::memory::MemoryLimit;
@@ -19,7 +19,6 @@ use crate::shading::TreeStatistics;
 use crate::shadow::exact::Arbiter;
 use crate::shadow::{Basis, BuildInput, Counters, Queries, SceneIndex, TesterEntry, testers};
 use looks::Look;
-use truth::{AnswersTo, Sample, unlike};
 
 /// What is measured, and how thoroughly.
 #[derive(Debug, Clone)]

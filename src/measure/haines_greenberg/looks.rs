@@ -3,7 +3,7 @@
 use super::{Column, MeasuredColumn, MeasuredView, Plan, TruthCounts};
 use crate::measure::{Answers, Repeated, timed};
 use crate::scene::{Camera, ImageSize, Light, Scene};
-use crate::shading::{RayForest, shade_picture};
+use crate::shading::{RayForest, Textures, TreeRules, shade_picture};
 use crate::shadow::Queries;
 use crate::visibility::{VisibleSurfaces, t_buffer};
 
@@ -35,7 +35,7 @@ impl Look {
             let grown = timed(|| {
                 let hits = t_buffer::first_hits(scene, &view.camera, view.size);
                 let visible = VisibleSurfaces::new(scene, &view.camera, &hits);
-                RayForest::grow(scene, visible, view.size.pixels() as u64, plan.depth)
+                RayForest::grow(scene, visible, view.size.pixels() as u64, TreeRules::of_depth(plan.depth))
             });
             times.push(grown.seconds);
             (grown.value, times.clone())
@@ -86,8 +86,10 @@ impl Look {
     pub fn finish(self, scene: &Scene, plan: &Plan) -> MeasuredView {
         let mut times = Repeated::default();
         while times.is_worth_another(plan.repetitions) {
-            let shaded =
-                timed(|| shade_picture(scene, &self.camera, &scene.lights, &self.forest, &self.arriving));
+            let shaded = timed(|| {
+                let (forest, arriving) = (&self.forest, &self.arriving);
+                shade_picture(scene, &self.camera, &scene.lights, forest, arriving, Textures::On)
+            });
             times.push(shaded.seconds);
         }
         MeasuredView { colour_seconds: times.median(), ..self.measured }

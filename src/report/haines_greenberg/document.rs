@@ -4,7 +4,7 @@
 use super::check::Check;
 use super::paper::Table;
 use super::quantity::Quantity;
-use crate::measure::reproduction::{Column, Lists, MeasuredColumn, MeasuredView, Plan};
+use crate::measure::haines_greenberg::{Column, Lists, MeasuredColumn, MeasuredView, Plan};
 use crate::scene::Scene;
 use crate::shading::TreeStatistics;
 use serde::Serialize;

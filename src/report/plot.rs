@@ -1,0 +1,166 @@
+//! Panels of plots: points of several kinds over one axis.
+
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::ValueFormatter;
+use plotters::prelude::*;
+use std::ops::Range;
+
+/// Points of one kind, joined by a line.
+pub struct Series {
+    /// In the legend.
+    pub name: String,
+    /// Of marks and line.
+    pub colour: RGBColor,
+    /// How they are joined.
+    pub stroke: Stroke,
+    /// What is 0 cannot be shown on a logarithmic axis.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How points are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stroke {
+    /// With a mark at each.
+    Solid,
+    /// Dotted, with hollow marks.
+    Dotted,
+    /// Dashed, without marks.
+    Dashed,
+    /// Dashed from side to side at the height of each.
+    Level,
+}
+
+/// How values are spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axes {
+    /// Both from 0.
+    Linear,
+    /// Both by powers of ten.
+    Logarithmic,
+}
+
+/// Where the legend is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Corner {
+    /// Of curves that fall.
+    UpperRight,
+    /// Of curves that rise.
+    UpperLeft,
+}
+
+/// One plot.
+pub struct Panel {
+    /// Above it.
+    pub title: String,
+    /// Below it.
+    pub x: String,
+    /// Beside it; may be empty.
+    pub y: String,
+    /// How values are spread.
+    pub axes: Axes,
+    /// Where the legend is.
+    pub legend: Corner,
+    /// What it shows.
+    pub series: Vec<Series>,
+}
+
+/// Whether something could be drawn.
+pub type Drawn = std::result::Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+impl Panel {
+    /// Draws it over a range of its x axis.
+    ///
+    /// # Errors
+    /// Those of the backend.
+    pub fn draw(&self, area: &DrawingArea<SVGBackend, Shift>, x: Range<f64>) -> Drawn {
+        let values = || self.series.iter().flat_map(|series| &series.points).map(|&(_, y)| y);
+        let (low, high) = (values().fold(f64::MAX, f64::min), values().fold(0.0, f64::max));
+        let mut builder = ChartBuilder::on(area);
+        builder
+            .caption(&self.title, ("sans-serif", 16))
+            .margin(8)
+            .x_label_area_size(36)
+            .y_label_area_size(58);
+        // Room above for the legend, on logarithmic axes in proportion to the decades shown.
+        match self.axes {
+            Axes::Linear => {
+                let high = if high > 0.0 { high } else { 1.0 };
+                let chart = builder.build_cartesian_2d(0.0..x.end, 0.0..high * 1.35)?;
+                self.fill(chart, 0.0..x.end)
+            }
+            Axes::Logarithmic => {
+                let y = if low > high { 0.1..10.0 } else { low / 1.5..high * 1.5 * (high / low).powf(0.35) };
+                let chart = builder.build_cartesian_2d((x.start..x.end).log_scale(), y.log_scale())?;
+                self.fill(chart, x)
+            }
+        }
+    }
+
+    fn fill<'a, X, Y>(
+        &self,
+        mut chart: ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
+        x: Range<f64>,
+    ) -> Drawn
+    where
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
+        chart
+            .configure_mesh()
+            .x_desc(&self.x)
+            .y_desc(&self.y)
+            .x_label_formatter(&|x| label(*x))
+            .y_label_formatter(&|y| label(*y))
+            .max_light_lines(3)
+            .light_line_style(RGBColor(238, 238, 238))
+            .bold_line_style(RGBColor(214, 214, 214))
+            .label_style(("sans-serif", 13))
+            .draw()?;
+        for series in &self.series {
+            let colour = series.colour;
+            let drawn = match series.stroke {
+                Stroke::Solid => {
+                    let marks = series.points.iter().map(|&point| Circle::new(point, 3, colour.filled()));
+                    chart.draw_series(marks)?;
+                    chart.draw_series(LineSeries::new(series.points.clone(), colour.stroke_width(2)))?
+                }
+                Stroke::Dotted => {
+                    let marks = series.points.iter().map(|&point| TriangleMarker::new(point, 5, colour));
+                    chart.draw_series(marks)?;
+                    let thin = colour.mix(0.7).stroke_width(1);
+                    chart.draw_series(DashedLineSeries::new(series.points.clone(), 3, 4, thin))?
+                }
+                Stroke::Dashed => {
+                    let line = DashedLineSeries::new(series.points.clone(), 8, 5, colour.stroke_width(1));
+                    chart.draw_series(line)?
+                }
+                Stroke::Level => {
+                    let ends: Vec<_> =
+                        series.points.iter().flat_map(|&(_, y)| [(x.start, y), (x.end, y)]).collect();
+                    chart.draw_series(DashedLineSeries::new(ends, 8, 5, colour.stroke_width(1)))?
+                }
+            };
+            let stroke = series.stroke;
+            drawn.label(&series.name).legend(move |(x, y)| {
+                let width = if stroke == Stroke::Solid { 3 } else { 1 };
+                let end = if stroke == Stroke::Dotted { x + 10 } else { x + 18 };
+                PathElement::new([(x, y), (end, y)], colour.stroke_width(width))
+            });
+        }
+        let position = match self.legend {
+            Corner::UpperRight => SeriesLabelPosition::UpperRight,
+            Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
+        };
+        chart
+            .configure_series_labels()
+            .position(position)
+            .background_style(WHITE.mix(0.85))
+            .label_font(("sans-serif", 12))
+            .draw()
+    }
+}
+
+/// A number on an axis.
+fn label(value: f64) -> String {
+    format!("{}", (value * 1e6).round() / 1e6)
+}
