@@ -4,6 +4,7 @@
 #   make test                      every test
 #   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
 #   make lint                      formatting and warnings
+#   make aimed-rays RAYS=1000000   the tests of rays aimed at edges, corners and the like, with so many of each kind
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
@@ -15,7 +16,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays planted-bugs clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -49,6 +50,10 @@ test-scenes: packages
 lint: packages
 	$(CARGO) fmt --check
 	$(CARGO) clippy --all-targets -- -D warnings
+
+RAYS ?= 1000000
+aimed-rays: packages
+	AIMED_RAYS=$(RAYS) $(CARGO) test --release --test aimed_rays -- --nocapture --test-threads=1
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

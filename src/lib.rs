@@ -86,6 +86,7 @@ pub mod geometry;
 pub mod hard_cases;
 pub mod measure;
 pub mod memory;
+mod random;
 pub mod report;
 pub mod scene;
 pub mod shading;

@@ -3,8 +3,9 @@
 //! What makes a case hard is said in its name. A case is one or several [`Situation`]s: a scene, a light, points,
 //! and what is known of the answers without asking any tester. Where a case says so itself ("all outside is
 //! dark"), that is [`Expected`]; otherwise the arbiter says what is true. All are made by the same few lines on
-//! every machine, without a random number.
+//! every machine, without a random number. Rays that are [aimed] at what is hard are many more, and random.
 
+pub mod aimed;
 mod cells;
 mod curved;
 mod edges;

@@ -5,11 +5,11 @@
 //! angle of its own and shorter by a ratio of its own, the larger turned less. The plane of a fork is turned
 //! from that of the fork before. Weight draws thin branches down and a steady wind pushes them aside.
 
-use super::random::Random;
 use super::shapes::cuboid;
 use super::studio::{PAPER_SIZE, Studio, glass, glossy, matt};
 use crate::error::Result;
 use crate::geometry::curved::Shape;
+use crate::random::Random;
 use crate::scene::Scene;
 use glam::DVec3;
 

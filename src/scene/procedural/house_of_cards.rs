@@ -3,10 +3,10 @@
 //! Five storeys take forty cards: fifteen pairs that lean on each other and ten that lie on them. A card has
 //! twenty points at each of its round corners and so 82 polygons.
 
-use super::random::Random;
 use super::shapes::{Mesh, cuboid, moved, prism, rounded_rectangle, turned_y, turned_z};
 use super::studio::{PAPER_SIZE, Studio, polished};
 use crate::error::Result;
+use crate::random::Random;
 use crate::scene::{Material, Scene};
 
 /// A card, in units of its shorter side.

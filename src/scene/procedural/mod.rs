@@ -4,7 +4,6 @@
 //! Each is a function of nothing but its size factor: random numbers come from a generator of ours and
 //! trigonometry from `libm`, so that a scene has the same bits everywhere.
 
-mod random;
 mod registry;
 mod shapes;
 mod studio;

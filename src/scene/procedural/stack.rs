@@ -7,11 +7,11 @@
 //! were side by side and hide parts of each other. With spheres in two layers it is the face-centred stack of cannon
 //! balls, seen along an axis of the cube: diagonal neighbours of a layer touch, and so do those of both layers.
 
-use super::random::Random;
 use super::shapes::Body;
 use super::studio::{Studio, glossy};
 use crate::error::Result;
 use crate::geometry::curved::Shape;
+use crate::random::Random;
 use crate::scene::{ImageSize, ObjectInput, Scene};
 use glam::{DVec2, DVec3};
 

@@ -6,7 +6,7 @@
 use super::{NO_SHINE, studio, surface, transparent, upright};
 use crate::error::Result;
 use crate::geometry::curved::Shape;
-use crate::scene::procedural::random::Random;
+use crate::random::Random;
 use crate::scene::{ObjectInput, Scene};
 use glam::{DVec3, Vec3};
 use std::f64::consts::TAU;

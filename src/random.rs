@@ -3,7 +3,7 @@
 /// A small generator with 64 bits of state: steps of a Weyl sequence, each put through two rounds of
 /// multiplying and folding.
 #[derive(Debug, Clone)]
-pub(super) struct Random {
+pub(crate) struct Random {
     state: u64,
 }
 
