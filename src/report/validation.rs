@@ -82,7 +82,7 @@ pub struct LightReport {
     pub queries: u64,
     /// Those of them that it reaches from behind, through their own transparent surface. Left out where there is
     /// none.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "crate::verdict::is_zero")]
     pub from_behind: u64,
     /// Visible points that face away from it.
     pub facing_away: u64,
@@ -100,10 +100,6 @@ pub struct LightReport {
     /// The arbiter against the plain definition, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arbiter_check: Option<ArbiterCheck>,
-}
-
-fn is_zero(count: &u64) -> bool {
-    *count == 0
 }
 
 /// One tester at one light.

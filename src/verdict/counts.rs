@@ -3,7 +3,8 @@
 use crate::shadow::Crossings;
 use std::ops::AddAssign;
 
-fn is_zero(count: &u64) -> bool {
+/// Whether a count is left out of JSON.
+pub(crate) fn is_zero(count: &u64) -> bool {
     *count == 0
 }
 

@@ -9,6 +9,7 @@ mod maps;
 
 pub use cause::{Cause, CauseCounts};
 pub use check::{ArbiterCheck, check_arbiter};
+pub(crate) use counts::is_zero;
 pub use counts::{TesterCounts, VerdictCounts};
 pub use edges::{EdgeCounts, ShadowEdges};
 pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, judge_known, run_tester};

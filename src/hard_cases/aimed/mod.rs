@@ -136,10 +136,11 @@ impl Class {
             }
             Class::Tangents => {
                 let alone: Vec<Alone> = stage.shapes.iter().filter_map(Alone::new).collect();
+                let shapes: Vec<_> = alone.iter().map(|shape| (shape, shape.hierarchy())).collect();
                 return (0..RAYS)
                     .filter_map(|_| {
-                        let shape = targets::pick(&alone, random);
-                        shape.tangent(&shape.hierarchy(), light, random)
+                        let (shape, hierarchy) = targets::pick(&shapes, random);
+                        shape.tangent(hierarchy, light, random)
                     })
                     .collect();
             }
