@@ -5,6 +5,7 @@
 #   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
 #   make lint                      formatting and warnings
 #   make aimed-rays RAYS=1700000   the tests of rays aimed at edges, corners and the like, with so many of each kind
+#   make hard-cases                the 47 hard cases at 17 resolutions from 1 to 2048, by one and two threads, in debug and release
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
@@ -16,7 +17,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases planted-bugs clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -55,6 +56,10 @@ lint: packages
 RAYS ?= 1700000
 aimed-rays: packages
 	AIMED_RAYS=$(RAYS) $(CARGO) test --release --test aimed_rays -- --nocapture --test-threads=1
+
+hard-cases: packages
+	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --release --test hard_cases -- --test-threads=1
+	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --test hard_cases -- --test-threads=1
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

@@ -20,6 +20,7 @@
 //! | [`shadow`] | [`ShadowTester`], the registry, one room a tester |
 //! | [`shading`] | ambient, Lambert and Phong, textures, ray trees |
 //! | [`film`] | image planes, OpenEXR, PNG, false colour |
+//! | [`float_environment`] | exact signs in threads that flush denormals |
 //! | [`memory`] | the limit that is checked before memory is asked for |
 //! | [`measure`] | running and timing testers |
 //! | [`verdict`] | masks against the truth |
@@ -82,6 +83,7 @@ pub mod cli;
 pub mod embree;
 pub mod error;
 pub mod film;
+pub mod float_environment;
 pub mod geometry;
 pub mod hard_cases;
 pub mod measure;

@@ -45,6 +45,7 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         all.extend(reports(&verdicts));
     }
     let report = Validation {
+        epsilon_sweep: Vec::new(),
         scene: format!("{BUILTIN_PREFIX}{HARD_CASES}"),
         width: 0,
         height: 0,
@@ -82,6 +83,7 @@ fn senseless(args: &Args) -> Option<&'static str> {
         ("--depth", args.trees.depth != USUAL_DEPTH),
         ("--shadow", args.testers.shadow != "light-buffer"),
         ("--check-arbiter", args.check_arbiter > 0),
+        ("--sweep-epsilon", args.sweep_epsilon),
         ("--exposure", run.exposure != 0.0),
         ("--stats", run.stats),
     ];

@@ -14,8 +14,8 @@ use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Skipped, Totals, Validation, WhySkipped};
 use crate::shading::Textures;
 use crate::shadow::Queries;
-use crate::shadow::{SceneIndex, TesterEntry, testers};
-use crate::verdict::{LightVerdict, Progress, check_arbiter, judge};
+use crate::shadow::{BuildInput, SceneIndex, TesterEntry, testers};
+use crate::verdict::{EpsilonCounts, LightVerdict, Progress, check_arbiter, judge, sweep_epsilon};
 use std::path::{Path, PathBuf};
 
 /// Testers that would need more tests than this are skipped by name.
@@ -38,6 +38,9 @@ pub struct Args {
     /// Check the arbiter on N queries a light against all triangles in exact integers
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) check_arbiter: usize,
+    /// Ask Embree again with epsilons from 0 to 0.01: acne against leaks
+    #[arg(long)]
+    pub(super) sweep_epsilon: bool,
     /// Copy of validate.json; - is standard output instead of the table
     #[arg(long, value_name = "FILE")]
     pub(super) json: Option<PathBuf>,
@@ -54,7 +57,8 @@ Channels of the OpenEXR file beside R G B A, Z, P.*, N.*, albedo.* and id.object
   shadow.LIGHT.verdict     against the truth: 0 background, 1 faces away, 2 lit, 3 occluded,
                            4 tester wrong, 5 Embree wrong, 6 both wrong, 7 outside the cone of a spot
                            light, 8 on an object that receives no shadows; plus 10 where the segment
-                           touches";
+                           touches; plus 100 where Embree is wrong by its epsilon, 200 by the
+                           rounding of its input, 300 by its traversal";
 
 pub fn run(args: &Args) -> Result<Outcome> {
     let messages = Messages::new(args.run.quiet);
@@ -90,6 +94,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         skipped: Vec::new(),
         lights: Vec::new(),
         cases: Vec::new(),
+        epsilon_sweep: Vec::new(),
         totals: Totals::default(),
     };
     let mut judged = Vec::new();
@@ -108,6 +113,10 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
             let advance = |n: u64| bars.advance(n);
             entry.arbiter_check =
                 Some(check_arbiter(&view.scene, position, &queries, &verdict.truth, most, &advance));
+        }
+        if args.sweep_epsilon {
+            bars.stage("epsilons");
+            sweep(&fitting, &input, &queries, &verdict, &mut report.epsilon_sweep)?;
         }
         bars.finish();
         report.lights.push(entry);
@@ -130,6 +139,29 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     }
     let arbiter_wrong = report.lights.iter().filter_map(|l| l.arbiter_check).any(|c| c.wrong > 0);
     Ok(if report.totals.native_wrong() > 0 || arbiter_wrong { Outcome::NativeWrong } else { Outcome::Right })
+}
+
+/// Asks those testers that trace float rays with other epsilons, and adds what they say to what they said of other
+/// lights.
+fn sweep(
+    entries: &[&TesterEntry],
+    input: &BuildInput,
+    queries: &Queries,
+    verdict: &LightVerdict,
+    sums: &mut Vec<EpsilonCounts>,
+) -> Result<()> {
+    let traces = |name: &str| verdict.tester(name).is_some_and(|tester| tester.explained.is_some());
+    for entry in entries.iter().filter(|entry| traces(entry.name)) {
+        for counts in sweep_epsilon(entry, input, queries, &verdict.truth)? {
+            let same =
+                |sum: &&mut EpsilonCounts| (sum.tester, sum.epsilon) == (counts.tester, counts.epsilon);
+            match sums.iter_mut().find(same) {
+                Some(sum) => *sum += counts,
+                None => sums.push(counts),
+            }
+        }
+    }
+    Ok(())
 }
 
 fn fitting<'e>(

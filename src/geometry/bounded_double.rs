@@ -11,13 +11,20 @@ pub(crate) struct BoundedDouble {
     error: f64,
 }
 
-/// What one operation loses, relative to the magnitudes of its terms.
+/// What one operation loses, relative to the magnitudes of its terms: a sum at most 3, a product 5 and a quotient 10
+/// of u^2 (Joldes, Muller and Popescu 2017, theorems 3.1, 5.1 and 6.1 for the same operations or lesser ones), 16 here.
 const LOSS: f64 = DoubleDouble::ROUNDOFF;
 
 /// The bound itself is computed in floats.
 const INFLATION: f64 = 1.0 + 16.0 * ROUNDOFF;
 
 impl BoundedDouble {
+    /// The number, and the bound of its error.
+    #[cfg(test)]
+    pub fn parts(&self) -> (DoubleDouble, f64) {
+        (self.value, self.error)
+    }
+
     fn size(&self) -> f64 {
         self.value.high.abs() * (1.0 + 2.0 * ROUNDOFF)
     }

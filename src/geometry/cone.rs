@@ -24,7 +24,14 @@ impl LightCone {
         let v = rounded - self.apex.as_dvec3();
         let axis = self.axis.as_dvec3();
         let error = (rounded.abs() + v.abs()) * (2.0 * ROUNDOFF);
-        // With v known within `error`: (v . axis)^2 against cosine^2 |v|^2 |axis|^2, on the axis's side.
+        // v . axis against cosine |v| |axis|, with v known within `error`: half a roundoff of the position and one of
+        // the difference, twice over. The scalar product adds 3 roundoffs of |v| . |axis|. A length is wrong by no
+        // more than the sum of the errors of its components and by 3 roundoffs (the squares and sums count half under
+        // the root), so that the product of both is by 7; 16 are taken, and 8 for the product with the cosine and the
+        // last difference. Squares must not underflow.
+        if v.length_squared() < 1e-280 {
+            return self.holds_exactly(&exact().relative_to(self.apex));
+        }
         let along = v.dot(axis);
         let along_error = (error * 2.0 + v.abs() * (8.0 * ROUNDOFF)).dot(axis.abs());
         let size = v.length() * axis.length();

@@ -94,7 +94,7 @@ impl LightTriangle {
 
     /// The four plane values at a point, in one fixed order of operations.
     #[inline(always)]
-    fn values(&self, p: &LightPoint) -> [f32; 4] {
+    pub(super) fn values(&self, p: &LightPoint) -> [f32; 4] {
         std::array::from_fn(|i| ((self.x[i] * p.x + self.y[i] * p.y) + self.z[i] * p.z) - self.offset[i])
     }
 

@@ -85,7 +85,7 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         normal.iter().map(|n| n.sign()).find(|&sign| sign != Sign::Zero).unwrap_or(Sign::Zero)
     }
 
-    fn blocks_in_f64(&self, corners: [Vec3; 3]) -> Option<bool> {
+    pub(super) fn blocks_in_f64(&self, corners: [Vec3; 3]) -> Option<bool> {
         let corners = corners.map(Vec3::as_dvec3);
         let planes = OrientedPlanes::new(&self.space, corners);
         let mut undecided = false;
@@ -97,8 +97,7 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
                 None => undecided = true,
             }
         }
-        let beyond = self.rounded - corners[0];
-        let (value, bound) = planes.own.dot(beyond, self.difference_error(beyond));
+        let (value, bound) = self.height_in_f64(&planes, corners);
         match Sign::certain(value, bound) {
             Some(Sign::Negative) => Some(false),
             Some(_) if !undecided => Some(true),
@@ -108,7 +107,7 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
 
     /// What the plane through the light and edge i of some corners, in the order of positive orientation, says
     /// of the point, in f64 and with the bound of the error. Both ends of the segment give the same.
-    fn edge_in_f64(&self, planes: &OrientedPlanes, corners: [DVec3; 3], i: usize) -> (f64, f64) {
+    pub(super) fn edge_in_f64(&self, planes: &OrientedPlanes, corners: [DVec3; 3], i: usize) -> (f64, f64) {
         // Relative to a point of the plane: the light, or a corner of the edge.
         let p = match self.space.light() {
             LightPosition::At(light) => self.rounded - light.as_dvec3(),
@@ -117,8 +116,14 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         planes.edges[i].dot(p, self.difference_error(p))
     }
 
-    /// The same exactly.
-    fn exact_edge(&self, corners: [Vec3; 3], i: usize) -> ExactNumber {
+    /// What the plane of some corners says of the point, in f64 and with the bound of the error.
+    pub(super) fn height_in_f64(&self, planes: &OrientedPlanes, corners: [DVec3; 3]) -> (f64, f64) {
+        let beyond = self.rounded - corners[0];
+        planes.own.dot(beyond, self.difference_error(beyond))
+    }
+
+    /// An edge exactly.
+    pub(super) fn exact_edge(&self, corners: [Vec3; 3], i: usize) -> ExactNumber {
         let p = self.exact();
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         match self.space.light() {
@@ -142,7 +147,7 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
     }
 
     /// Corners are in the order of positive orientation.
-    fn blocks_exactly(&self, corners: [Vec3; 3]) -> bool {
+    pub(super) fn blocks_exactly(&self, corners: [Vec3; 3]) -> bool {
         (0..3).all(|i| self.exact_edge(corners, i).sign() != Sign::Negative) && self.is_beyond(corners)
     }
 

@@ -16,6 +16,7 @@ use glam::{DVec3, Vec3};
 pub fn orientation(light: impl Into<LightPosition>, [a, b, c]: [Vec3; 3]) -> Sign {
     match light.into() {
         LightPosition::At(point) => {
+            // Adaptive and exact for f32 coordinates, denormal ones too: no product of it underflows.
             let coord = |p: Vec3| robust::Coord3D { x: f64::from(p.x), y: f64::from(p.y), z: f64::from(p.z) };
             Sign::of(robust::orient3d(coord(a), coord(b), coord(c), coord(point)))
         }
@@ -42,8 +43,9 @@ pub fn oriented(light: impl Into<LightPosition>, corners: [Vec3; 3]) -> Option<[
 
 /// A plane normal in f64, and for each component the sum of the absolute values of its two terms.
 ///
-/// A component is p q - r s with each factor a difference rounded once: it is wrong by at most 5 roundoffs
-/// of its `size`.
+/// A component is p q - r s with each factor a difference rounded once: 2 roundoffs from the factors, 1 from the
+/// product and 1 from the difference, which is at most its `size`. So it is wrong by 4 roundoffs of the exact size,
+/// and by less than 5 of the computed one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     pub normal: DVec3,
@@ -84,8 +86,9 @@ impl Plane {
 
     /// The scalar product with a vector whose components are wrong by at most `error`, and its bound.
     ///
-    /// Per component: 5 roundoffs of `size` from the normal, 1 from the product, 2 from the sums, and the
-    /// vector's own error; 12 roundoffs of size * |v| and twice size * error are above that.
+    /// Per component: 5 roundoffs of `size` from the normal, 1 from the product, 2 from the sums, 8 in all of
+    /// size * |v|, and |normal| times the vector's own error; 12 roundoffs of size * |v| and twice size * error are
+    /// above that, since |normal| <= size. Products with a tiny position may underflow, each by at most 2^-1074.
     pub fn dot(&self, v: DVec3, error: DVec3) -> (f64, f64) {
         let n = self.normal;
         let value = (n.x * v.x + n.y * v.y) + n.z * v.z;

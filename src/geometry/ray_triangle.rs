@@ -56,6 +56,8 @@ impl RayTriangle {
         let (height, height_error) = self.planes.height;
         let (slope, slope_error) = self.planes.own.dot(d, DVec3::ZERO);
         let value = height / slope;
+        // |h / s - H / S| = |h (S - s) + s (h - H)| / (s S) <= (t |S - s| + |h - H|) / S for the computed t = h / s,
+        // and S > s / 2 where s is more than twice its bound. The division is wrong by a roundoff of t.
         let certain = slope > 2.0 * slope_error && value.is_finite();
         let error = if certain {
             2.0 * (height_error + value * slope_error) / slope + 4.0 * ROUNDOFF * value
@@ -98,6 +100,7 @@ pub fn hit_beyond(
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
     for (k, (p, q)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+        // One rounding of each difference, twice over.
         let relative = o - p;
         let (value, bound) = Plane::through(q - p, -d).dot(relative, relative.abs() * f64::EPSILON);
         let sign = Sign::certain(value, bound).unwrap_or_else(|| edge_along(origin, direction, corners, k));
@@ -109,6 +112,7 @@ pub fn hit_beyond(
     let (height, height_error) = own.dot(a - o, (a - o).abs() * f64::EPSILON);
     let (slope, slope_error) = own.dot(d, DVec3::ZERO);
     let value = height / slope;
+    // As in `RayTriangle::hit`; here the height has either sign.
     let certain = slope > 2.0 * slope_error && value.is_finite();
     let error = if certain {
         2.0 * (height_error + value.abs() * slope_error) / slope + 4.0 * ROUNDOFF * value.abs()

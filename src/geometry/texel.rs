@@ -56,6 +56,9 @@ impl<F: Fn() -> [ExactNumber; 3]> Weights<F> {
     fn rounded_place(&self, axis: &TexelAxis) -> Option<i64> {
         let [w0, w1, w2] = self.rounded;
         let [u0, u1, u2] = axis.coordinates.map(|u| f64::from(u) * f64::from(axis.size));
+        // The sum adds 2 roundoffs of its terms to the weights' own bounds; the weighted one 1 for each coordinate, 1
+        // for each product and 2 for the sums. The quotient is as in `RayTriangle::hit`: its divisor is more than
+        // twice its bound.
         let sum = w0.0 + w1.0 + w2.0;
         let sum_error = w0.1 + w1.1 + w2.1 + 4.0 * ROUNDOFF * (w0.0.abs() + w1.0.abs() + w2.0.abs());
         let terms = [w0.0 * u0, w1.0 * u1, w2.0 * u2];

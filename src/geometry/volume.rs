@@ -34,8 +34,12 @@ enum End {
     Infinity,
 }
 
-/// A few roundings of a sum of terms, relative to their absolute sum: sixteen and the margin for the
-/// roundings of the bound itself.
+/// More than the roundings of any value below, relative to the sum of its absolute terms.
+///
+/// For a box: the middle is wrong by 3 roundoffs of |low| + |high| + |start|, the half extent by 1, the direction by
+/// 1 of |start| and 1 of the point, which is in `point_error`; then a product and a difference. For a sphere: the
+/// middle by 1, the place along the segment by 3 of a scalar product over 4 of a squared length, each relative to
+/// |middle| / |direction|; the nearest point by 2 more, its distance by 3. That is 15 at most, and 32 are taken.
 const ROUNDINGS: f64 = 32.0 * ROUNDOFF;
 
 /// Above the rounding of subnormal numbers, far below what f32 coordinates can differ by.

@@ -5,7 +5,7 @@ use crate::film::{Category, CategoryMap, ImagePlanes, palette};
 use crate::scene::{ImageSize, Scene};
 use crate::shading::ShadedPoint;
 use crate::shadow::Queries;
-use crate::verdict::{LightVerdict, PixelVerdict};
+use crate::verdict::{Cause, LightVerdict, PixelVerdict};
 use crate::visibility::VisibleSurfaces;
 
 /// R G B A, Z, P, N, albedo and identifiers of a picture. The background is 0 with alpha 0 and Z infinite.
@@ -44,6 +44,40 @@ pub fn picture_planes(
     Ok(planes)
 }
 
+/// What is known of a pixel.
+#[derive(Debug, Clone, Copy)]
+struct Judged {
+    verdict: PixelVerdict,
+    touching: bool,
+    /// Why Embree is wrong there, if it is.
+    cause: Option<Cause>,
+}
+
+impl Judged {
+    /// A pixel without a query.
+    fn unasked(verdict: PixelVerdict) -> Judged {
+        Judged { verdict, touching: false, cause: None }
+    }
+
+    /// The code of the channel.
+    fn code(&self) -> f32 {
+        let touching = if self.touching { 10 } else { 0 };
+        f32::from(u16::from(self.verdict.code()) + touching + self.cause.map_or(0, Cause::code))
+    }
+
+    /// The category of the map: the first nine are those of the verdict.
+    fn class(&self) -> u8 {
+        const TOUCHING: u8 = 9;
+        match (self.verdict, self.cause) {
+            (PixelVerdict::Lit | PixelVerdict::Occluded, _) if self.touching => TOUCHING,
+            (PixelVerdict::EmbreeWrong, Some(Cause::Epsilon)) => TOUCHING + 1,
+            (PixelVerdict::EmbreeWrong, Some(Cause::InputRounding)) => TOUCHING + 2,
+            (PixelVerdict::EmbreeWrong, Some(Cause::Traversal)) => TOUCHING + 3,
+            (verdict, _) => verdict.code(),
+        }
+    }
+}
+
 /// Classes of the difference map: what a tester and Embree say of each pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Difference {
@@ -64,7 +98,7 @@ pub struct LightMaps {
     light: String,
     tester: &'static str,
     difference: Option<Vec<Difference>>,
-    verdict: Vec<(PixelVerdict, bool)>,
+    verdict: Vec<Judged>,
 }
 
 impl LightMaps {
@@ -79,7 +113,12 @@ impl LightMaps {
     ) -> Option<LightMaps> {
         let native = &verdict.tester(tester)?.run;
         let embree = verdict.tester("embree").map(|t| &t.run);
-        let mut pixels = vec![(PixelVerdict::Background, false); size.pixels()];
+        let explained = verdict.tester("embree").and_then(|t| t.explained.as_deref()).unwrap_or_default();
+        let cause = |query: usize| {
+            let place = explained.binary_search_by_key(&query, |wrong| wrong.query).ok()?;
+            Some(explained[place].cause)
+        };
+        let mut pixels = vec![Judged::unasked(PixelVerdict::Background); size.pixels()];
         let mut difference = vec![Difference::Background; size.pixels()];
         for (unasked, verdict, class) in [
             (&queries.facing_away, PixelVerdict::FacingAway, Difference::Unlit),
@@ -87,14 +126,15 @@ impl LightMaps {
             (&queries.not_receiving, PixelVerdict::NotReceiving, Difference::NotReceiving),
         ] {
             for pixel in unasked.iter().filter_map(|&node| visible.pixel_seen(node)) {
-                pixels[pixel as usize].0 = verdict;
+                pixels[pixel as usize] = Judged::unasked(verdict);
                 difference[pixel as usize] = class;
             }
         }
         for (i, pixel) in queries.nodes.iter().map_while(|&node| visible.pixel_seen(node)).enumerate() {
             let other = embree.map(|e| e.occluded[i]);
             let judged = PixelVerdict::new(native.occluded[i], other, verdict.truth[i]);
-            pixels[pixel as usize] = (judged, verdict.touching[i]);
+            pixels[pixel as usize] =
+                Judged { verdict: judged, touching: verdict.touching[i], cause: cause(i) };
             difference[pixel as usize] = match (native.occluded[i], other.unwrap_or(native.occluded[i])) {
                 (false, false) => Difference::BothLit,
                 (true, true) => Difference::BothOccluded,
@@ -120,9 +160,10 @@ impl LightMaps {
             let samples = difference.iter().map(value).collect();
             planes.add_channel(format!("shadow.{}.difference", self.light), samples)?;
         }
-        let code =
-            |&(verdict, touching): &(PixelVerdict, bool)| f32::from(verdict.code() + 10 * u8::from(touching));
-        planes.add_channel(format!("shadow.{}.verdict", self.light), self.verdict.iter().map(code).collect())
+        planes.add_channel(
+            format!("shadow.{}.verdict", self.light),
+            self.verdict.iter().map(Judged::code).collect(),
+        )
     }
 
     /// Where the tester and Embree differ, in false colour; `None` if Embree was not asked.
@@ -158,18 +199,17 @@ impl LightMaps {
             Category::plain("lit", palette::LIT),
             Category::plain("occluded", palette::SHADOWED),
             Category::marked_when_rare(format!("{tester} wrong"), palette::VERMILLION),
-            Category::marked_when_rare("embree wrong", palette::SKY_BLUE),
+            // Where Embree is wrong a legend says why; this is for what cannot be said.
+            Category::if_present("embree wrong", palette::BLUISH_GREEN),
             Category::marked_when_rare("both wrong", palette::REDDISH_PURPLE),
             Category::if_present("outside the cone", palette::OUTSIDE_CONE),
             Category::if_present("receives no shadows", palette::NOT_RECEIVING),
             Category::marked_when_rare("touching, all right", palette::YELLOW),
+            Category::marked_when_rare("embree wrong: epsilon", palette::SKY_BLUE),
+            Category::marked_when_rare("embree wrong: input rounding", palette::BLUE),
+            Category::marked_when_rare("embree wrong: traversal", palette::ORANGE),
         ];
-        let touching_class = 9;
-        let class = |&(verdict, touching): &(PixelVerdict, bool)| match verdict {
-            PixelVerdict::Lit | PixelVerdict::Occluded if touching => touching_class,
-            _ => verdict.code(),
-        };
-        let classes = self.verdict.iter().map(class).collect();
+        let classes = self.verdict.iter().map(Judged::class).collect();
         CategoryMap::new(format!("light {}: verdicts", self.light), self.size, classes, legend)
     }
 }

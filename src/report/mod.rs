@@ -2,6 +2,7 @@
 //! a room.
 
 pub mod haines_greenberg;
+pub mod hard_case_picture;
 pub mod hard_cases;
 pub mod images;
 mod plot;

@@ -4,7 +4,7 @@ use super::validation::{TesterReport, Totals, Validation, WhySkipped, WrongPixel
 use crate::film::grouped;
 use crate::shading::TreeStatistics;
 use crate::shadow::{Counters, testers};
-use crate::verdict::{Cause, TesterRun};
+use crate::verdict::{Cause, EpsilonCounts, TesterRun};
 use crate::visibility::FirstHits;
 use std::fmt::Write;
 
@@ -43,6 +43,7 @@ pub fn verdict_table(report: &Validation) -> String {
     }
     text.push_str(&summary(&report.totals));
     text.push_str(&causes(&report.totals));
+    text.push_str(&epsilons(&report.epsilon_sweep));
     let first = |pixels: &'_ [WrongPixel]| pixels.first().filter(|pixel| !pixel.is_expected()).cloned();
     let wrong = report.lights.iter().find_map(|light| Some((light, first(&light.wrong_pixels)?)));
     if let Some((light, WrongPixel { pixel: [x, y], .. })) = wrong {
@@ -121,6 +122,30 @@ fn causes(totals: &Totals) -> String {
         _ => format!("{} and {} other testers are wrong {causes} each\n", names[0], names.len() - 1),
     };
     said.into_iter().map(line).collect()
+}
+
+/// Errors against epsilon, testers side by side.
+fn epsilons(sweep: &[EpsilonCounts]) -> String {
+    let Some(first) = sweep.first() else { return String::new() };
+    let columns: Vec<&str> = sweep.iter().filter(|c| c.epsilon == first.epsilon).map(|c| c.tester).collect();
+    let mut text = String::from(
+        "epsilon: share of a segment left out at both ends; false shadow (acne) + false light (leaks)\n",
+    );
+    let width = columns.iter().map(|name| name.len()).max().unwrap_or(0).max(18);
+    let _ = write!(text, "  {:>8}", "epsilon");
+    columns.iter().for_each(|name| {
+        let _ = write!(text, " {name:>width$}");
+    });
+    text.push('\n');
+    for row in sweep.iter().filter(|c| c.tester == first.tester) {
+        let _ = write!(text, "  {:>8}", format!("{:e}", row.epsilon));
+        for cell in sweep.iter().filter(|c| c.epsilon == row.epsilon) {
+            let both = format!("{} + {}", grouped(cell.false_shadow), grouped(cell.false_light));
+            let _ = write!(text, " {both:>width$}");
+        }
+        text.push('\n');
+    }
+    text
 }
 
 fn causes_of(tester: &TesterReport) -> Option<String> {

@@ -2,7 +2,8 @@
 
 use super::hard_cases::CaseReport;
 use crate::shadow::{Basis, Queries, shadow_buffer};
-use crate::verdict::{ArbiterCheck, CauseCounts, LightVerdict, TesterCounts, TesterResult, VerdictCounts};
+use crate::verdict::{ArbiterCheck, CauseCounts, EpsilonCounts, LightVerdict, TesterCounts};
+use crate::verdict::{TesterResult, VerdictCounts};
 use crate::visibility::VisibleSurfaces;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -30,6 +31,9 @@ pub struct Validation {
     /// One entry a hard case, for `builtin:hard-cases`, which has neither lights nor an image; else left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cases: Vec<CaseReport>,
+    /// Embree with other epsilons, summed over the lights, if that was asked for; else left out.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub epsilon_sweep: Vec<EpsilonCounts>,
     /// Sums over the lights, or over the situations of all cases.
     pub totals: Totals,
 }
@@ -171,7 +175,7 @@ impl LightReport {
     pub fn without_image(name: &str, verdict: &LightVerdict) -> LightReport {
         let report = |t: &TesterResult| TesterReport {
             counts: t.counts,
-            causes: t.causes,
+            causes: t.causes(),
             build_seconds: t.run.build_seconds,
             ns_per_query: t.run.ns_per_query,
             bytes: t.run.bytes,

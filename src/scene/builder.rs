@@ -3,6 +3,7 @@
 use super::{AlphaMask, Camera, Coverage, Light, Material, Object, Scene, Shadowing};
 use super::{CurvedPrimitive, Mapping, Texture, TextureCoordinates, Triangle};
 use crate::error::{Error, Result};
+use crate::float_environment::StandardFloats;
 use crate::geometry::curved::Shape;
 use glam::Vec3;
 use std::collections::HashMap;
@@ -213,6 +214,7 @@ impl SceneBuilder {
     /// [`Error::Usage`] if an index is out of range, the material has an alpha mask and the object no texture
     /// coordinates for it, one of those that it needs is not finite, or the scene grows past 2^28 elements.
     pub fn add_object(&mut self, input: ObjectInput) -> Result<()> {
+        let _floats = StandardFloats::new();
         let scene = &mut self.scene;
         let total = |have: usize, more: usize| have.saturating_add(more) > MAX_ELEMENTS;
         if total(scene.vertices.len(), input.positions.len())

@@ -2,6 +2,7 @@
 
 use super::{Camera, Falloff, Light, Material, ObjectInput, PointLight, Scene, SceneBuilder};
 use crate::error::{Error, Result};
+use crate::float_environment::StandardFloats;
 use glam::Vec3;
 
 /// Whether a mesh that gets its lights from us gets a floor too.
@@ -26,6 +27,7 @@ const FLOOR_RADII: f32 = 6.0;
 /// [`Error::Usage`] if something is missing and the scene holds nothing that has an end, or is so large that
 /// what is added would not be finite.
 pub fn frame(scene: &mut Scene, framing: Framing) -> Result<Vec<String>> {
+    let _floats = StandardFloats::new();
     if !scene.cameras.is_empty() && !scene.lights.is_empty() {
         return Ok(Vec::new());
     }

@@ -1,9 +1,9 @@
 //! Every primitive for every query: the classical tracer of the 2004 paper, with the native predicates.
 
-use super::float_mode::expect_denormals;
 use super::precise::{self, crossed_by_points, is_there};
 use super::{Basis, BuildInput, Casters, Counters, Crossings, Lights, SceneIndex, ShadowTester, TesterEntry};
 use crate::error::Result;
+use crate::float_environment::StandardFloats;
 use crate::geometry::LightPoint;
 use crate::geometry::batch::{InstructionSet, LANES, PointBatch};
 use crate::geometry::occlusion::PreciseQuery;
@@ -17,7 +17,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Exact,
     lights: Lights::All,
     build: &|input| {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         Ok(Box::new(BruteForce::new(input, InstructionSet::best())))
     },
     expected_tests: |casters, queries| casters * queries,
@@ -107,7 +107,7 @@ pub(super) struct Batch<'p> {
 
 impl ShadowTester for BruteForce<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         let mut counters = Counters::default();
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
             let batch = self.batch(points);
@@ -120,7 +120,7 @@ impl ShadowTester for BruteForce<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         Ok(crossed_by_points(self.scene, self.index, &self.casters.space, points, crossings))
     }
 

@@ -16,6 +16,7 @@ mod casters;
 use super::{Basis, Build, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry, TracedRay};
 use crate::embree::{Device, EmbreeMode, EmbreeScene, QueryOptions, Receiver, ShadowRay};
 use crate::error::Result;
+use crate::float_environment::StandardFloats;
 use crate::geometry::LightPosition;
 use crate::visibility::{PointSource, SurfacePoint};
 use casters::Casters;
@@ -98,6 +99,7 @@ impl Embree {
     /// # Errors
     /// A mode that this Embree lacks, or whatever it reports.
     pub fn new(input: &BuildInput, mode: EmbreeMode) -> Result<Embree> {
+        let _floats = StandardFloats::new();
         let device = Device::new(input.embree.threads)?;
         mode.expect_in(&device)?;
         let scene = casters::build(&device, input.scene, mode.scene)?;
@@ -166,6 +168,7 @@ impl Embree {
 
 impl ShadowTester for Embree {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        let _floats = StandardFloats::new();
         let mut rays = [ShadowRay::EMPTY; RAYS];
         for (points, answers) in points.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
             let rays = self.shadow_rays(points, &mut rays);
@@ -175,6 +178,7 @@ impl ShadowTester for Embree {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        let _floats = StandardFloats::new();
         let (mut rays, mut found) = ([ShadowRay::EMPTY; RAYS], Vec::new());
         for points in points.chunks(RAYS) {
             let rays = self.shadow_rays(points, &mut rays);
@@ -196,6 +200,7 @@ impl ShadowTester for Embree {
     }
 
     fn traced_ray(&self, point: &SurfacePoint) -> Option<TracedRay> {
+        let _floats = StandardFloats::new();
         self.ray(point)
     }
 }

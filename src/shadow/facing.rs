@@ -1,6 +1,7 @@
 //! Dark by facing: what turns its back to the light is no shadow query (row 12 of the notes on the 1986
 //! paper, TRUTH "Facing"), unless light passes through it.
 
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::curved::{Crossing, Shape};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::planes::orientation;
@@ -30,15 +31,21 @@ pub enum Facing {
 impl Sides {
     /// Sides of all planes for one light.
     pub fn of(scene: &Scene, light: impl Into<LightPosition>) -> Sides {
+        let _floats = StandardFloats::new();
         let light = light.into();
         let triangles = 0..scene.triangles.len() as u32;
-        let triangles = triangles.into_par_iter().map(|t| orientation(light, scene.corners(t))).collect();
+        let triangles = triangles
+            .into_par_iter()
+            .map(|t| orientation(light, scene.corners(t)))
+            .in_standard_floats()
+            .collect();
         let bounds = scene.bounds().unwrap_or_default();
         Sides { triangles, space: LightSpace::new(light, bounds) }
     }
 
     /// How the surface of a point faces the light.
     pub fn facing(&self, scene: &Scene, point: &SurfacePoint) -> Facing {
+        let _floats = StandardFloats::new();
         let sides = match point.source {
             // The ray comes from where it does not go, so its direction tells the side of its start.
             PointSource::Ray { direction, primitive, .. } => {

@@ -12,7 +12,6 @@ mod crossings;
 pub mod embree;
 pub mod exact;
 pub mod facing;
-mod float_mode;
 pub mod light_buffer;
 mod precise;
 mod queries;

@@ -2,6 +2,7 @@
 
 use super::Crossings;
 use super::facing::{Facing, Sides};
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::scene::{Light, Scene};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
 use rayon::prelude::*;
@@ -28,13 +29,15 @@ pub struct Queries {
 impl Queries {
     /// Splits the points of an image.
     pub fn new(scene: &Scene, visible: &VisibleSurfaces, light: &Light) -> Queries {
+        let _floats = StandardFloats::new();
         let sides = Sides::of(scene, light.position());
         let cone = light.lit_cone();
         let is_lit =
             |point: &SurfacePoint| cone.is_none_or(|cone| cone.holds(point.position, || point.exact(scene)));
         let receives =
             |point: &SurfacePoint| point.primitive().is_none_or(|p| scene.object(p).shadowing.receives);
-        let facing: Vec<Facing> = visible.points.par_iter().map(|p| sides.facing(scene, p)).collect();
+        let facing: Vec<Facing> =
+            visible.points.par_iter().map(|p| sides.facing(scene, p)).in_standard_floats().collect();
         let lets_light_through =
             |point: &SurfacePoint| point.primitive().is_some_and(|p| scene.is_transparent(p));
         let mut queries = Queries::default();

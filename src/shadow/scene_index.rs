@@ -1,6 +1,7 @@
 //! What belongs to the scene and not to one light, made once for all of them.
 
 use super::Solids;
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
 use crate::scene::{PrimitiveIndex, Scene};
@@ -28,6 +29,7 @@ pub struct SceneIndex {
 impl SceneIndex {
     /// Examines a scene.
     pub fn new(scene: &Scene) -> SceneIndex {
+        let _floats = StandardFloats::new();
         let mut seen = HashSet::with_capacity(scene.triangles.len());
         let casting: Vec<_> = (0..scene.triangles.len() as u32)
             .filter(|&t| {
@@ -49,6 +51,7 @@ impl SceneIndex {
         let convexity = scene
             .objects
             .par_iter()
+            .in_standard_floats()
             .map(|object| {
                 if object.curved_count > 0 {
                     return None;
@@ -131,6 +134,7 @@ impl Casters {
         let space = LightSpace::new(light, index.bounds);
         let (mut planes, mut primitives): (Vec<_>, Vec<_>) = triangles
             .par_iter()
+            .in_standard_floats()
             .filter_map(|&primitive| Some((LightTriangle::new(&space, scene.corners(primitive))?, primitive)))
             .unzip();
         planes.resize(planes.len() + curved.len(), LightTriangle::UNDECIDED);

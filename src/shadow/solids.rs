@@ -1,6 +1,7 @@
 //! The closed solids of a scene, for those that leave out their far sides (row 4 of the notes on the 1986
 //! paper).
 
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::planes::orientation;
 use crate::geometry::solid::{self, Refusal, Solid};
 use crate::geometry::{LightPosition, Sign};
@@ -20,9 +21,11 @@ pub struct Solids {
 impl Solids {
     /// Examines every object that casts and has no holes.
     pub fn new(scene: &Scene) -> Solids {
+        let _floats = StandardFloats::new();
         let parts: Vec<_> = scene
             .objects
             .par_iter()
+            .in_standard_floats()
             .filter(|object| {
                 let coverage = scene.materials[object.material as usize].coverage;
                 object.shadowing.casts && !matches!(coverage, Coverage::Masked(_))
@@ -61,7 +64,9 @@ impl Solids {
 
     /// The far sides of all solids that a light is outside of.
     pub fn far_sides(&self, light: LightPosition) -> FarSides<'_> {
-        let is_outside = self.solids.par_iter().map(|solid| solid.is_outside(light)).collect();
+        let _floats = StandardFloats::new();
+        let is_outside =
+            self.solids.par_iter().map(|solid| solid.is_outside(light)).in_standard_floats().collect();
         FarSides { solids: self, light, is_outside }
     }
 }

@@ -30,6 +30,18 @@ impl Cause {
         }
     }
 
+    /// All of them, in the order of their codes.
+    pub const ALL: [Cause; 3] = [Cause::Epsilon, Cause::InputRounding, Cause::Traversal];
+
+    /// What is added to the code of a pixel's verdict where Embree is wrong: 100, 200 or 300.
+    pub fn code(self) -> u16 {
+        match self {
+            Cause::Epsilon => 100,
+            Cause::InputRounding => 200,
+            Cause::Traversal => 300,
+        }
+    }
+
     /// In words, as in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -38,6 +50,15 @@ impl Cause {
             Cause::Traversal => "traversal",
         }
     }
+}
+
+/// A wrong answer of a tester that traces float rays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WrongAnswer {
+    /// The place of the query among those of its light.
+    pub query: usize,
+    /// What it is put down to.
+    pub cause: Cause,
 }
 
 /// Wrong answers by cause.
@@ -52,6 +73,13 @@ pub struct CauseCounts {
 }
 
 impl CauseCounts {
+    /// Counts a list.
+    pub fn of(wrong: &[WrongAnswer]) -> CauseCounts {
+        let mut counts = CauseCounts::default();
+        wrong.iter().for_each(|answer| counts.add(answer.cause));
+        counts
+    }
+
     /// Counts one more.
     pub fn add(&mut self, cause: Cause) {
         match cause {

@@ -1,6 +1,6 @@
 //! Every tester over the queries of one light, against the arbiter.
 
-use super::{Cause, CauseCounts, TesterCounts, VerdictCounts};
+use super::{Cause, CauseCounts, TesterCounts, VerdictCounts, WrongAnswer};
 use crate::error::{Error, Result};
 use crate::measure::{Question, Timed, answer, soft_light, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
@@ -50,8 +50,15 @@ pub struct TesterResult {
     pub run: TesterRun,
     /// Right and wrong.
     pub counts: TesterCounts,
-    /// What its wrong answers are put down to, if it traces float rays.
-    pub causes: Option<CauseCounts>,
+    /// Its wrong answers and what they are put down to, in the order of the queries, if it traces float rays.
+    pub explained: Option<Vec<WrongAnswer>>,
+}
+
+impl TesterResult {
+    /// How many wrong answers are put down to what, if it traces float rays.
+    pub fn causes(&self) -> Option<CauseCounts> {
+        self.explained.as_deref().map(CauseCounts::of)
+    }
 }
 
 /// The verdict on one light.
@@ -139,8 +146,9 @@ pub fn judge_known(
         if let (Some(found), Some(crossed)) = (&run.crossings, &crossed) {
             counts.count_transmittances(&run.occluded, found, &truth, crossed);
         }
-        let causes = tester.and_then(|t| causes(t.as_ref(), &arbiter.value, points, &run.occluded, &truth));
-        testers.push(TesterResult { run, counts, causes });
+        let explained =
+            tester.and_then(|t| explained(t.as_ref(), &arbiter.value, points, &run.occluded, &truth));
+        testers.push(TesterResult { run, counts, explained });
     }
     let counts = verdicts(&truth, crossed.as_ref(), &touching, &testers);
     Ok(LightVerdict { truth, crossed, touching, testers, counts })
@@ -192,22 +200,21 @@ fn crossings_of(arbiter: &Arbiter, points: &[SurfacePoint], occluded: &[bool]) -
 }
 
 /// What a tester's wrong answers are put down to; `None` if it traces no float rays.
-fn causes(
+fn explained(
     tester: &dyn ShadowTester,
     arbiter: &Arbiter,
     points: &[SurfacePoint],
     answers: &[bool],
     truth: &[bool],
-) -> Option<CauseCounts> {
+) -> Option<Vec<WrongAnswer>> {
     // A point in the light has no ray, others next to it have.
     points.iter().take(64).find_map(|point| tester.traced_ray(point))?;
     let wrong: Vec<usize> = (0..points.len()).filter(|&i| answers[i] != truth[i]).collect();
-    let cause = |&i: &usize| Some(Cause::of(arbiter, &tester.traced_ray(&points[i])?, answers[i]));
-    let mut counts = CauseCounts::default();
-    for cause in wrong.par_iter().filter_map(cause).collect::<Vec<_>>() {
-        counts.add(cause);
-    }
-    Some(counts)
+    let explain = |&query: &usize| {
+        let cause = Cause::of(arbiter, &tester.traced_ray(&points[query])?, answers[query]);
+        Some(WrongAnswer { query, cause })
+    };
+    Some(wrong.par_iter().filter_map(explain).collect())
 }
 
 /// Builds one tester and lets it answer all queries of a light.

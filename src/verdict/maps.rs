@@ -1,7 +1,7 @@
 //! Verdicts pixel by pixel.
 
 /// What the channel `shadow.<light>.verdict` says of a pixel. The discriminants are its codes; 10 is added
-/// where the query is touching.
+/// where the query is touching, and [`Cause::code`](super::Cause::code) where it is known why Embree is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum PixelVerdict {

@@ -6,11 +6,13 @@ mod counts;
 mod edges;
 mod judge;
 mod maps;
+mod sweep;
 
-pub use cause::{Cause, CauseCounts};
+pub use cause::{Cause, CauseCounts, WrongAnswer};
 pub use check::{ArbiterCheck, check_arbiter};
 pub(crate) use counts::is_zero;
 pub use counts::{TesterCounts, VerdictCounts};
 pub use edges::{EdgeCounts, ShadowEdges};
 pub use judge::{LightVerdict, Progress, TesterResult, TesterRun, judge, judge_known, run_tester};
 pub use maps::PixelVerdict;
+pub use sweep::{EPSILONS, EpsilonCounts, sweep_epsilon};

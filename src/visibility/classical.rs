@@ -2,6 +2,7 @@
 //! paper, section IV). It is what the t-buffer must equal, pixel by pixel.
 
 use super::hit::{FirstHits, Hit, is_there, keep_nearer};
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::curved::RayStart;
 use crate::geometry::ray_triangle::RayTriangle;
 use crate::scene::{Camera, ImageSize, Scene};
@@ -9,6 +10,7 @@ use rayon::prelude::*;
 
 /// First hits by testing everything.
 pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
+    let _floats = StandardFloats::new();
     let prepared: Vec<_> = (0..scene.triangles.len() as u32)
         .filter_map(|primitive| Some((primitive, RayTriangle::new(camera.origin, scene.corners(primitive))?)))
         .collect();
@@ -17,6 +19,7 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
     let raster = camera.raster(size);
     let primitives = (0..size.pixels())
         .into_par_iter()
+        .in_standard_floats()
         .map(|pixel| {
             let (x, y) = (pixel as u32 % size.width, pixel as u32 / size.width);
             let direction = camera.direction(&raster, x, y);

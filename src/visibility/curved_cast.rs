@@ -1,6 +1,7 @@
 //! Curved surfaces in the t-buffer: the rays that the projection of a hull covers are tried.
 
 use super::hit::{Hit, keep_nearer};
+use crate::float_environment::InStandardFloats;
 use crate::geometry::curved::RayStart;
 use crate::geometry::curved::hull::{self, Hull};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
@@ -39,7 +40,8 @@ impl CurvedCast {
         let end = all.end;
         all.step_by(CHUNK as usize).map(move |first| {
             let chunk = first..end.min(first + CHUNK);
-            chunk.into_par_iter().filter_map(|p| CurvedCast::new(scene, p, camera, grid, frame)).collect()
+            let casts = chunk.into_par_iter().in_standard_floats();
+            casts.filter_map(|p| CurvedCast::new(scene, p, camera, grid, frame)).collect()
         })
     }
 

@@ -2,6 +2,7 @@
 //! the notes on the 1986 paper).
 
 use super::hit::{FirstHits, Hit, is_there_beyond, keep_nearer};
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::curved::{Crossing, RayStart};
 use crate::geometry::ray_triangle;
 use crate::scene::{Camera, ImageSize, Primitive, PrimitiveIndex, Scene};
@@ -11,7 +12,8 @@ use rayon::prelude::*;
 /// Most primitives of a leaf.
 const LEAF: usize = 4;
 
-/// Boxes are widened by this share of the numbers that go into a test, above f64 rounding.
+/// Boxes are widened by this share of the numbers that go into a test, above f64 rounding: a difference of floats
+/// loses 1 roundoff and the slack itself 2 more, a quotient 1; this is 64.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// A ray with the place where it begins.
@@ -49,10 +51,12 @@ enum Content {
 
 /// First hits of a camera's rays, one by one.
 pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
+    let _floats = StandardFloats::new();
     let hierarchy = Hierarchy::new(scene);
     let raster = camera.raster(size);
     let found: Vec<(Option<FirstHit>, u64)> = (0..size.pixels() as u32)
         .into_par_iter()
+        .in_standard_floats()
         .map(|pixel| {
             let direction = camera.direction(&raster, pixel % size.width, pixel / size.width);
             hierarchy.search(&Ray { origin: camera.origin, direction, start: RayStart::origin() })
@@ -75,6 +79,7 @@ pub struct Hierarchy<'a> {
 impl<'a> Hierarchy<'a> {
     /// Builds the tree by halving along the longest axis of the centres.
     pub fn new(scene: &'a Scene) -> Hierarchy<'a> {
+        let _floats = StandardFloats::new();
         let bounds: Vec<Option<(Vec3, Vec3)>> =
             (0..scene.primitive_count()).map(|p| scene.primitive_bounds(p)).collect();
         let (mut order, endless): (Vec<u32>, Vec<u32>) =
@@ -113,6 +118,7 @@ impl<'a> Hierarchy<'a> {
 
     /// What a ray hits first, by the rule of the t-buffer.
     pub fn first_hit(&self, ray: &Ray) -> Option<FirstHit> {
+        let _floats = StandardFloats::new();
         self.search(ray).0
     }
 

@@ -1,6 +1,7 @@
 //! Points on surfaces that are asked whether they see a light.
 
 use super::FirstHits;
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::ExactPosition;
 use crate::geometry::curved::{Crossing, RayStart};
 use crate::scene::{Camera, PrimitiveIndex, Scene};
@@ -49,6 +50,7 @@ impl SurfacePoint {
     /// # Panics
     /// If it is a curved surface that the ray misses.
     pub fn on_ray(scene: &Scene, origin: Vec3, direction: Vec3, primitive: PrimitiveIndex) -> SurfacePoint {
+        let _floats = StandardFloats::new();
         if let Some(shape) = scene.shape(primitive) {
             let hit = shape.first_hit(origin, direction, &RayStart::origin()).expect("a surface that is hit");
             return SurfacePoint::on_curved(scene, origin, direction, primitive, hit.crossing);
@@ -68,6 +70,7 @@ impl SurfacePoint {
         primitive: PrimitiveIndex,
         crossing: Crossing,
     ) -> SurfacePoint {
+        let _floats = StandardFloats::new();
         let shape = *scene.shape(primitive).expect("a curved surface");
         let exact = ExactPosition::OnCurved { origin, direction, shape, crossing };
         let source = PointSource::OnCurved { origin, direction, primitive, crossing };
@@ -126,11 +129,13 @@ pub struct VisibleSurfaces {
 impl VisibleSurfaces {
     /// The points behind first hits of a camera.
     pub fn new(scene: &Scene, camera: &Camera, hits: &FirstHits) -> VisibleSurfaces {
+        let _floats = StandardFloats::new();
         let raster = camera.raster(hits.size);
         let (points, pixels) = hits
             .primitives
             .par_iter()
             .enumerate()
+            .in_standard_floats()
             .filter_map(|(pixel, primitive)| {
                 let pixel = pixel as u32;
                 let (x, y) = (pixel % hits.size.width, pixel / hits.size.width);

@@ -8,6 +8,7 @@
 use super::classical;
 use super::curved_cast::CurvedCast;
 use super::hit::{FirstHits, Hit, is_there, keep_nearer};
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::ray_triangle::RayTriangle;
 use crate::scene::{Camera, ImageSize, PrimitiveIndex, Raster, Scene};
@@ -31,6 +32,7 @@ const WIDEST_IMAGE: f64 = 1_048_576.0;
 
 /// First hits by filling a t-buffer.
 pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
+    let _floats = StandardFloats::new();
     let raster = camera.raster(size);
     // Beyond this a ray's rounding can turn it behind the image plane, where there are no footprints.
     if 1.0 + raster.x0.abs() + raster.y0.abs() > WIDEST_IMAGE {
@@ -44,6 +46,7 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
     for chunk in chunks(scene) {
         let casts: Vec<Cast> = chunk
             .into_par_iter()
+            .in_standard_floats()
             .filter_map(|primitive| {
                 let triangle = RayTriangle::new(camera.origin, scene.corners(primitive))?;
                 let footprint = Footprint::new(&grid, &frame, triangle.planes())?;
@@ -53,6 +56,7 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
         tests += items
             .par_chunks_mut(BAND_ROWS * size.width as usize)
             .enumerate()
+            .in_standard_floats()
             .map(|(band, items)| {
                 let first_row = (band * BAND_ROWS) as u32;
                 casts
@@ -66,6 +70,7 @@ pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits 
         tests += items
             .par_chunks_mut(BAND_ROWS * size.width as usize)
             .enumerate()
+            .in_standard_floats()
             .map(|(band, items)| {
                 let first_row = (band * BAND_ROWS) as u32;
                 let casts = chunk.iter();

@@ -1,6 +1,7 @@
 //! The program as people run it: its options, what it writes where, and how it exits.
 
 mod embree_modes;
+mod epsilon;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
 mod hard_cases;

@@ -82,7 +82,7 @@ impl fmt::Display for Way {
     }
 }
 
-/// All ways for a situation. The finest resolution costs most, so that it is tried once.
+/// All ways for a situation. The finest resolution costs most, so that it is tried once, unless all are asked for.
 pub fn ways(situation: &Situation) -> Vec<Way> {
     let mut ways = Vec::new();
     let places: &[Receivers] = match situation.receivers() {
@@ -112,8 +112,21 @@ pub fn ways(situation: &Situation) -> Vec<Way> {
             Way { threads: 2, ..buffer(64) },
         ]);
     }
-    ways.push(Way { receivers: situation.receivers(), threads: 2, ..Way::light_buffer(512) });
+    let receivers = situation.receivers();
+    if every_resolution() {
+        let powers = (0..=11).map(|n| 1 << n);
+        for resolution in powers.chain([3, 7, 100, 1000, 2047]) {
+            ways.extend([1, 2].map(|threads| Way { receivers, threads, ..Way::light_buffer(resolution) }));
+        }
+    } else {
+        ways.push(Way { receivers, threads: 2, ..Way::light_buffer(512) });
+    }
     ways
+}
+
+/// Whether the long run was asked for: `make hard-cases`.
+fn every_resolution() -> bool {
+    std::env::var_os("HARD_CASES_EVERY_RESOLUTION").is_some_and(|value| value == "1")
 }
 
 fn input<'a>(way: &Way, situation: &'a Situation, index: &'a SceneIndex) -> BuildInput<'a> {

@@ -22,6 +22,7 @@ pub use save::save;
 
 use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
+use crate::float_environment::StandardFloats;
 use std::path::Path;
 
 /// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`,
@@ -33,6 +34,7 @@ use std::path::Path;
 /// # Errors
 /// One line with file and place for whatever cannot be read, and for a file without a single primitive.
 pub fn load(path: &Path) -> Result<Scene> {
+    let _floats = StandardFloats::new();
     if let Some(name) = path.to_str().and_then(|path| path.strip_prefix(BUILTIN_PREFIX)) {
         return procedural::find(name)?.build(None);
     }

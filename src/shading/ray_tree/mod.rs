@@ -9,6 +9,7 @@ mod spawn;
 pub use branch::{reflected, refracted};
 pub use spawn::{Branch, Kind, branches};
 
+use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::scene::{Material, Scene};
 use crate::visibility::hierarchy::{FirstHit, Hierarchy, Ray};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
@@ -102,6 +103,7 @@ struct Twig {
 impl RayForest {
     /// Grows the trees of what a camera sees, of `eye_rays` rays.
     pub fn grow(scene: &Scene, seen: VisibleSurfaces, eye_rays: u64, rules: TreeRules) -> RayForest {
+        let _floats = StandardFloats::new();
         let hits = seen.points.len();
         let statistics =
             TreeStatistics { eye_rays, eye_hits: hits as u64, depth: 1, ..TreeStatistics::default() };
@@ -129,6 +131,7 @@ impl RayForest {
         let points = self.nodes.points[first..].par_iter();
         let sprouted: Vec<(Vec<Twig>, TreeStatistics)> = points
             .enumerate()
+            .in_standard_floats()
             .map(|(i, point)| {
                 let node = first + i;
                 let (pixel, weight) = (self.nodes.pixels[node], self.weights[node]);
@@ -163,8 +166,11 @@ impl RayForest {
             Some(crossing) => SurfacePoint::on_curved(scene, ray.origin, ray.direction, primitive, crossing),
             None => SurfacePoint::on_ray(scene, ray.origin, ray.direction, primitive),
         };
-        let hits: Vec<_> =
-            twigs.par_iter().map(|twig| Some(point(&twig.ray, hierarchy.first_hit(&twig.ray)?))).collect();
+        let hits: Vec<_> = twigs
+            .par_iter()
+            .in_standard_floats()
+            .map(|twig| Some(point(&twig.ray, hierarchy.first_hit(&twig.ray)?)))
+            .collect();
         for (twig, hit) in twigs.iter().zip(hits) {
             match hit {
                 Some(point) => {

@@ -7,10 +7,10 @@
 mod hierarchy;
 
 use super::brute_force::{Batch, BruteForce};
-use super::float_mode::expect_denormals;
 use super::precise::crossed_among;
 use super::{Basis, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry};
 use crate::error::Result;
+use crate::float_environment::StandardFloats;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::curved::Shape;
 use crate::geometry::occlusion::PreciseQuery;
@@ -26,7 +26,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Exact,
     lights: Lights::All,
     build: &|input| {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         Ok(Box::new(BoundingVolumes::new(input, InstructionSet::best())))
     },
     // In the worst case all triangles are one object, which every segment meets.
@@ -173,7 +173,7 @@ impl<'a> BoundingVolumes<'a> {
 
 impl ShadowTester for BoundingVolumes<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         let mut counters = Counters::default();
         let space = &self.casters.casters.space;
         for (points, answers) in points.chunks(LANES).zip(answers.chunks_mut(LANES)) {
@@ -188,7 +188,7 @@ impl ShadowTester for BoundingVolumes<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         let mut counters = Counters::default();
         let space = &self.casters.casters.space;
         for point in points {

@@ -6,6 +6,7 @@ use super::interval::Box3;
 use super::interval_planes::IntervalPlanes;
 use super::interval_shape::IntervalShape;
 use super::query::origin_of;
+use crate::float_environment::InStandardFloats;
 use crate::geometry::LightPosition;
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
 use rayon::prelude::*;
@@ -57,7 +58,7 @@ impl Casters {
         let count = bounded.len();
         bounded.extend(endless);
         let caster = |primitive| Caster { primitive, first_stage: FirstStage::new(scene, light, primitive) };
-        let casters = bounded.into_par_iter().map(caster).collect();
+        let casters = bounded.into_par_iter().map(caster).in_standard_floats().collect();
         Casters { light, hierarchy: Hierarchy::new(&boxes), casters, bounded: count }
     }
 

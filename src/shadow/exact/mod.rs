@@ -27,9 +27,9 @@ mod traced;
 pub use integer::Meeting;
 pub use traced::Span;
 
-use super::float_mode::expect_denormals;
 use super::{Basis, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry};
 use crate::error::Result;
+use crate::float_environment::StandardFloats;
 use crate::geometry::{ExactPosition, LightPosition};
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
@@ -44,7 +44,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Truth,
     lights: Lights::All,
     build: &|input| {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         Ok(Box::new(Arbiter::new(input)))
     },
     expected_tests: |_, queries| 100.0 * queries,
@@ -93,6 +93,7 @@ pub struct Arbiter<'a> {
 impl<'a> Arbiter<'a> {
     /// Prepares the hierarchies over all primitives that cast.
     pub fn new(input: &BuildInput<'a>) -> Arbiter<'a> {
+        let _floats = StandardFloats::new();
         let (scene, light) = (input.scene, input.light);
         let casting = (0..scene.primitive_count()).filter(|&p| scene.object(p).shadowing.casts);
         let (transparent, opaque) = casting.partition(|&p| scene.is_transparent(p));
@@ -131,6 +132,7 @@ impl<'a> Arbiter<'a> {
     /// Every primitive that casts and that the segment of a point meets, but for what ends in the receiver's
     /// own surface, in the order of their indices. Transparent ones are among them.
     pub fn meetings(&self, point: &SurfacePoint) -> Vec<(PrimitiveIndex, Meeting)> {
+        let _floats = StandardFloats::new();
         let query = Query::new(self.scene, self.light, point);
         let mut found = Vec::new();
         for casters in [&self.opaque, &self.transparent] {
@@ -149,6 +151,7 @@ impl<'a> Arbiter<'a> {
 
     /// The truth about one point.
     pub fn decide(&self, point: &SurfacePoint) -> Truth {
+        let _floats = StandardFloats::new();
         let query = Query::new(self.scene, self.light, point);
         let mut passes_through = false;
         let mut boundaries = Vec::new();
@@ -183,6 +186,7 @@ impl<'a> Arbiter<'a> {
     /// The transparent primitives that cast and that the segment of a point crosses, in ascending order; what
     /// it crosses twice is there twice. The point itself is no crossing.
     pub fn crossed(&self, point: &SurfacePoint) -> Vec<PrimitiveIndex> {
+        let _floats = StandardFloats::new();
         let mut crossed = Vec::new();
         if self.transparent.is_empty() {
             return crossed;
@@ -199,7 +203,7 @@ impl<'a> Arbiter<'a> {
 
 impl ShadowTester for Arbiter<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         for (point, answer) in points.iter().zip(answers) {
             *answer = self.decide(point).occlusion == Occlusion::Occluded;
         }
@@ -207,7 +211,7 @@ impl ShadowTester for Arbiter<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         for point in points {
             crossings.push(Arbiter::crossed(self, point));
         }

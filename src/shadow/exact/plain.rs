@@ -5,6 +5,7 @@ use super::integer::{IntegerLight, LitTriangle, Scale, scale_of_light, side};
 use super::integer_shape::{IntegerShape, scale_of_shape};
 use super::mask;
 use super::point::{RelativePoint, scale_of};
+use crate::float_environment::StandardFloats;
 use crate::geometry::LightPosition;
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
@@ -32,6 +33,7 @@ enum Form {
 impl<'a> PlainTest<'a> {
     /// Prepares the primitives; the scale holds each of them, the light and the points that will be asked.
     pub fn new(scene: &'a Scene, light: LightPosition, points: &[SurfacePoint]) -> PlainTest<'a> {
+        let _floats = StandardFloats::new();
         let casting = || (0..scene.primitive_count()).filter(|&p| scene.object(p).shadowing.casts);
         let scale_of_caster = |p| match scene.primitive(p) {
             Primitive::Triangle(corners) => Scale::of(corners),
@@ -55,6 +57,7 @@ impl<'a> PlainTest<'a> {
 
     /// Whether any opaque primitive blocks the open segment from the point to the light.
     pub fn decide(&self, point: &SurfacePoint) -> Occlusion {
+        let _floats = StandardFloats::new();
         let p = self.relative(point);
         let blocks = |caster: &Caster| match &caster.form {
             Form::Triangle(t) => {
@@ -72,6 +75,7 @@ impl<'a> PlainTest<'a> {
 
     /// The transparent primitives that the segment crosses, in ascending order, each as often as it does.
     pub fn crossed(&self, point: &SurfacePoint) -> Vec<PrimitiveIndex> {
+        let _floats = StandardFloats::new();
         let p = self.relative(point);
         let crossings = |caster: &Caster| match &caster.form {
             Form::Triangle(t) => usize::from(t.is_crossed(&p) && self.is_there(caster.primitive, t, &p)),

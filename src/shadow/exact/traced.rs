@@ -7,6 +7,7 @@ use super::point::{RelativePoint, scale_of, scale_with};
 use super::roots::Bound;
 use super::surd::Surd;
 use super::{Arbiter, interval, mask};
+use crate::float_environment::StandardFloats;
 use crate::geometry::curved::Shape;
 use crate::geometry::{ExactPosition, LightPosition};
 use crate::scene::{MaskedTriangle, Primitive};
@@ -27,6 +28,7 @@ impl Arbiter<'_> {
     /// Whether a closed opaque primitive that casts meets the ray, exactly. A triangle whose plane holds the
     /// ray's direction does not, and neither does a curved surface that the ray runs along.
     pub fn is_blocked(&self, ray: &TracedRay, span: Span) -> bool {
+        let _floats = StandardFloats::new();
         let mut blocked = false;
         let towards = LightPosition::Towards(ray.direction);
         self.opaque.walk(towards, &interval::point(ray.origin), |caster| {

@@ -13,6 +13,7 @@ use super::flatness::Flatness;
 use super::groups::{CellGroups, Group, Grouping};
 use super::{Header, Record, SideLists, Statistics};
 use crate::error::{Error, Result};
+use crate::float_environment::InStandardFloats;
 use crate::geometry::footprint::{Footprint, Frame, Grid};
 use crate::geometry::planes::{OrientedPlanes, oriented};
 use crate::scene::{Primitive, PrimitiveIndex};
@@ -109,7 +110,7 @@ pub(super) fn build_on(
     let blocking = blocking.flat_map_iter(|(caster, &p)| parts(input, p, Role::Blocks(caster as u32)));
     let receiving = receiving_only.par_iter().flat_map_iter(|&p| parts(input, p, Role::ReceivesOnly));
     let sided = |part: Part| (touched(part.corners), part);
-    let parts: Vec<(SideBits, Part)> = blocking.chain(receiving).map(sided).collect();
+    let parts: Vec<(SideBits, Part)> = blocking.chain(receiving).map(sided).in_standard_floats().collect();
     let curved = parts.iter().any(|(_, part)| part.stands_for != StandsFor::Itself);
     let grid = side_grid(resolution);
     let rules = Rules {
@@ -132,6 +133,7 @@ pub(super) fn build_on(
         let bands = bands(&window);
         let lists: Vec<Band> = bands
             .into_par_iter()
+            .in_standard_floats()
             .map(|rows| fill_band(&casts, &grid, &window, rows, receivers, &rules))
             .collect();
         sides.push(Some(join(&window, lists, &mut statistics)?));
@@ -199,7 +201,12 @@ fn project(
         let footprint = Footprint::new(grid, frame, &planes)?;
         Some(Cast { role: part.role, most: part.most, stands_for: part.stands_for, footprint })
     };
-    parts.par_iter().filter(|(sides, _)| sides >> side & 1 == 1).filter_map(cast).collect()
+    parts
+        .par_iter()
+        .filter(|(sides, _)| sides >> side & 1 == 1)
+        .in_standard_floats()
+        .filter_map(cast)
+        .collect()
 }
 
 /// Checks what the lists of one side can need before they are made: an entry and its place in the order for
@@ -226,7 +233,10 @@ fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, input: &BuildInput
         let spans = (top..=bottom).filter_map(|row| cast.footprint.span(grid, row));
         spans.map(|[left, right]| u64::from(right - left + 1)).sum()
     };
-    limit.check(what(), entry_bytes.saturating_mul(casts.par_iter().map(row_by_row).sum()))
+    limit.check(
+        what(),
+        entry_bytes.saturating_mul(casts.par_iter().in_standard_floats().map(row_by_row).sum()),
+    )
 }
 
 /// Rows in pieces of about equal numbers of cells.

@@ -1,5 +1,6 @@
 //! A convex object does not shadow itself (row 16 of the notes on the 1986 paper).
 
+use crate::float_environment::InStandardFloats;
 use crate::geometry::Sign;
 use crate::geometry::planes::orientation;
 use crate::scene::PrimitiveIndex;
@@ -26,7 +27,9 @@ impl HarmlessObjects {
             let opposite = inner * orientation(input.light, scene.corners(primitive)) == Sign::Negative;
             opposite.then_some(object)
         };
-        HarmlessObjects((0..scene.triangles.len() as u32).into_par_iter().map(own_object).collect())
+        HarmlessObjects(
+            (0..scene.triangles.len() as u32).into_par_iter().map(own_object).in_standard_floats().collect(),
+        )
     }
 
     /// The object that cannot shadow a triangle.

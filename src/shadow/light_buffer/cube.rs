@@ -89,7 +89,8 @@ pub fn locate<F: Fn() -> ExactPosition>(
     let error = coordinate_error(ex, x).max(coordinate_error(ey, y));
     let z_error = coordinate_error(ez, z);
     let cells = f64::from(resolution);
-    // In units of cells: the error of x' / z', of the division and of the scaling.
+    // In units of cells, which are half of 2 / R: the quotient is wrong by at most (error + |x' / z'| z_error) / z', and
+    // |x'| <= z', taken twice over; the division, adding 1 and the scaling lose 4 roundoffs of at most 2, and this is 16.
     let tolerance = cells * (2.0 * (error + z_error) / z + 8.0 * f64::EPSILON);
     let index = |value: f64| certain_index(value / z, tolerance, resolution);
     if let (Some(column), Some(row)) = (index(x), index(y)) {

@@ -28,12 +28,12 @@ mod walk;
 pub use audit::Audit;
 pub use occupancy::Occupancy;
 
-use super::float_mode::expect_denormals;
 use super::{
     Basis, BuildInput, Casters, Counters, Crossings, Lights, ObjectCoherence, Receivers, Resolution,
     ShadowTester, TesterEntry,
 };
 use crate::error::{Error, Result};
+use crate::float_environment::StandardFloats;
 use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::volume::Volume;
@@ -168,10 +168,9 @@ impl<'a> LightBuffer<'a> {
     /// Builds the buffer of one light.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a resolution outside 1 to 4096, or lists too long for 32-bit offsets,
-    /// and in a thread that takes denormal numbers for zero.
+    /// [`Error::Usage`] for a resolution outside 1 to 4096, or lists too long for 32-bit offsets.
     pub fn new(input: &BuildInput<'a>) -> Result<LightBuffer<'a>> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         let roles = Roles::new(input);
         let casters = Casters::some(input.scene, input.index, input.light, &roles.casting);
         let resolution = match input.resolution {
@@ -306,7 +305,7 @@ enum Occluder {
 
 impl ShadowTester for LightBuffer<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         let mut counters = Counters::default();
         let mut last = None;
         for (point, answer) in points.iter().zip(answers) {
@@ -322,7 +321,7 @@ impl ShadowTester for LightBuffer<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
-        expect_denormals()?;
+        let _floats = StandardFloats::new();
         let mut counters = Counters::default();
         for point in points {
             let lists = self.transparent.as_ref();

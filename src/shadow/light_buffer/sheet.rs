@@ -55,6 +55,7 @@ impl Sheet {
     fn across_error(&self, i: usize, position: DVec3, p: DVec3) -> f64 {
         let (own, along) = (self.axes[i], self.axes[2]);
         let slope = self.slope(i).abs();
+        // The slope loses 1 roundoff, the product 1 and the difference 1; this is 8.
         let rounding = 4.0 * f64::EPSILON * (p[own].abs() + p[along].abs() * slope);
         coordinate_error(position[own], p[own])
             + coordinate_error(position[along], p[along]) * slope
@@ -109,6 +110,7 @@ impl Sheet {
             if value.abs() > extent * (1.0 + 1e-12) + 2.0 * error {
                 return None;
             }
+            // As in the cube: the division, adding 1 and the scaling lose 4 roundoffs of at most 2, and this is 16.
             let tolerance = f64::from(resolution) * (error / extent + 8.0 * f64::EPSILON);
             *cell = certain_index(value / extent, tolerance, resolution);
         }

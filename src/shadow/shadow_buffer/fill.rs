@@ -7,6 +7,7 @@
 
 use super::footprint::Footprint;
 use super::sphere::{Cell, Sphere};
+use crate::float_environment::InStandardFloats;
 use crate::geometry::curved::RayStart;
 use crate::geometry::ray_triangle::RayTriangle;
 use crate::scene::{Object, Primitive, PrimitiveIndex, Scene};
@@ -74,8 +75,11 @@ pub(super) fn fill(scene: &Scene, sphere: &Sphere, light: Vec3) -> Filled {
     let mut hits: Vec<Option<Hit>> = vec![None; sphere.cells() as usize];
     let mut tests = 0;
     for primitives in scene.objects.iter().flat_map(|object| chunks(scene, object)) {
-        let casts: Vec<Cast> =
-            primitives.into_par_iter().filter_map(|p| Cast::new(scene, sphere, light, p)).collect();
+        let casts: Vec<Cast> = primitives
+            .into_par_iter()
+            .in_standard_floats()
+            .filter_map(|p| Cast::new(scene, sphere, light, p))
+            .collect();
         let fill_band = |(band, hits): (usize, &mut [Option<Hit>])| {
             let first_row = (band * BAND_ROWS) as u32;
             let mut tests = 0;
@@ -99,7 +103,12 @@ pub(super) fn fill(scene: &Scene, sphere: &Sphere, light: Vec3) -> Filled {
             }
             tests
         };
-        tests += hits.par_chunks_mut(BAND_ROWS * columns).enumerate().map(fill_band).sum::<u64>();
+        tests += hits
+            .par_chunks_mut(BAND_ROWS * columns)
+            .enumerate()
+            .map(fill_band)
+            .in_standard_floats()
+            .sum::<u64>();
     }
     Filled { hits, tests }
 }
@@ -147,7 +156,7 @@ impl Filled {
             };
             distance as f32
         };
-        self.hits.par_iter().enumerate().map(distance).collect()
+        self.hits.par_iter().enumerate().map(distance).in_standard_floats().collect()
     }
 
     /// The primitive that each cell's ray hits first.

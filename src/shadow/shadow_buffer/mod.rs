@@ -20,6 +20,7 @@ use super::{
     Basis, BuildInput, Counters, Crossings, Lights, Receivers, SceneIndex, ShadowTester, TesterEntry,
 };
 use crate::error::{Error, Result};
+use crate::float_environment::StandardFloats;
 use crate::geometry::{LightPosition, LightSpace};
 use crate::scene::{Object, Scene};
 use crate::visibility::SurfacePoint;
@@ -86,6 +87,7 @@ impl<'a> ShadowBuffer<'a> {
     /// # Errors
     /// [`Error::Usage`] for a light infinitely far away, sizes or a bias out of range, or more memory than allowed.
     pub fn new(input: &BuildInput<'a>) -> Result<ShadowBuffer<'a>> {
+        let _floats = StandardFloats::new();
         let subject = subject(input)?;
         expect_memory(input, &subject, fill::CELL_BYTES + subject.kept.cell_bytes())?;
         let (scene, Subject { sphere, light, kept, .. }) = (input.scene, &subject);
@@ -107,6 +109,7 @@ impl<'a> ShadowBuffer<'a> {
     /// # Errors
     /// As there, or if the file is damaged or holds another buffer.
     pub fn load(input: &BuildInput<'a>, path: &Path) -> Result<ShadowBuffer<'a>> {
+        let _floats = StandardFloats::new();
         let subject = subject(input)?;
         // The file's bytes and the cells are there at once.
         expect_memory(input, &subject, 2 * subject.kept.cell_bytes())?;
@@ -234,6 +237,7 @@ fn expect_memory(input: &BuildInput, subject: &Subject, cell_bytes: u64) -> Resu
 
 impl ShadowTester for ShadowBuffer<'_> {
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        let _floats = StandardFloats::new();
         let mut counters = Counters::default();
         for (point, answer) in points.iter().zip(answers) {
             // The number of cells is odd: there is no tie.
@@ -243,10 +247,12 @@ impl ShadowTester for ShadowBuffer<'_> {
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        let _floats = StandardFloats::new();
         Ok(crossed_by_points(self.scene, self.index, &self.space, points, crossings))
     }
 
     fn lit_share(&self, points: &[SurfacePoint], shares: &mut [f32]) -> Result<Option<Counters>> {
+        let _floats = StandardFloats::new();
         if self.filter == FilterWidth::OFF {
             return Ok(None);
         }
