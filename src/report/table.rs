@@ -138,7 +138,8 @@ fn epsilons(sweep: &[EpsilonCounts]) -> String {
     });
     text.push('\n');
     for row in sweep.iter().filter(|c| c.tester == first.tester) {
-        let _ = write!(text, "  {:>8}", format!("{:e}", row.epsilon));
+        let epsilon = if row.epsilon == 0.0 { "0".into() } else { format!("{:e}", row.epsilon) };
+        let _ = write!(text, "  {epsilon:>8}");
         for cell in sweep.iter().filter(|c| c.epsilon == row.epsilon) {
             let both = format!("{} + {}", grouped(cell.false_shadow), grouped(cell.false_light));
             let _ = write!(text, " {both:>width$}");
