@@ -5,6 +5,7 @@
 #   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
 #   make lint                      formatting and warnings
 #   make aimed-rays RAYS=1700000   the tests of rays aimed at edges, corners and the like, with so many of each kind
+#   make differential-fuzzing SECONDS=3600   random small scenes for so long, all testers against each other
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
@@ -16,7 +17,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays differential-fuzzing planted-bugs clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -55,6 +56,10 @@ lint: packages
 RAYS ?= 1700000
 aimed-rays: packages
 	AIMED_RAYS=$(RAYS) $(CARGO) test --release --test aimed_rays -- --nocapture --test-threads=1
+
+SECONDS ?= 60
+differential-fuzzing: packages
+	$(CARGO) run --release -- fuzz --seconds $(SECONDS) -o out/findings
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

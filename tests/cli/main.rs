@@ -3,6 +3,7 @@
 mod embree_modes;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+mod fuzz;
 mod hard_cases;
 mod hostile;
 mod info;
