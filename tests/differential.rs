@@ -90,7 +90,9 @@ fn findings_of_the_past_are_no_longer_there() {
     let judge = Judge::new(&entries).unwrap();
     for path in findings {
         let finding = Finding::load(&path).unwrap();
-        assert!(!judge.everyone(&finding.recipe).is_empty(), "{}: nobody is asked", path.display());
+        let asked = judge.everyone(&finding.recipe);
+        let is_about_rays = finding.kind.what == What::FirstHits;
+        assert!(is_about_rays || !asked.is_empty(), "{}: nobody is asked", path.display());
         assert!(!finding.is_still_there(&judge), "{}", path.display());
     }
 }
