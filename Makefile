@@ -6,6 +6,7 @@
 #   make lint                      formatting and warnings
 #   make aimed-rays RAYS=1700000   the tests of rays aimed at edges, corners and the like, with so many of each kind
 #   make hard-cases                the 47 hard cases at 17 resolutions from 1 to 2048, by one and two threads, in debug and release
+#   make differential-fuzzing SECONDS=3600   random small scenes for so long, all testers against each other
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
@@ -17,7 +18,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases differential-fuzzing planted-bugs clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -60,6 +61,9 @@ aimed-rays: packages
 hard-cases: packages
 	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --release --test hard_cases -- --test-threads=1
 	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --test hard_cases -- --test-threads=1
+SECONDS ?= 60
+differential-fuzzing: packages
+	$(CARGO) run --release -- fuzz --seconds $(SECONDS) -o out/findings
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

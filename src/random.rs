@@ -25,4 +25,19 @@ impl Random {
     pub fn signed(&mut self) -> f64 {
         2.0 * self.unit() - 1.0
     }
+
+    /// A whole number from 0 up to this one, which is left out.
+    pub fn below(&mut self, end: usize) -> usize {
+        (self.unit() * end as f64) as usize
+    }
+
+    /// One of several.
+    pub fn pick<'t, T>(&mut self, several: &'t [T]) -> &'t T {
+        &several[self.below(several.len())]
+    }
+
+    /// Whether something happens that does with this probability.
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.unit() < probability
+    }
 }

@@ -4,6 +4,7 @@
 //! right, 1 done and a native answer is wrong, 2 usage or input error.
 
 mod counts;
+mod fuzz;
 mod generate;
 mod hard_cases;
 mod info;
@@ -46,6 +47,8 @@ enum Command {
     Generate(generate::Args),
     /// Measure the tables of a paper again, beside what it printed
     Reproduce(reproduce::Args),
+    /// Try random small scenes until testers that should agree do not, or ask a finding again
+    Fuzz(fuzz::Args),
 }
 
 /// How a command that ran to its end came out.
@@ -66,6 +69,7 @@ pub fn run() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Generate(args) => generate::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Fuzz(args) => fuzz::run(&args),
     };
     match outcome {
         Ok(Outcome::Right) => ExitCode::SUCCESS,

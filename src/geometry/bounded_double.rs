@@ -44,6 +44,10 @@ impl BoundedDouble {
     /// The square root of a number that is not negative, whatever its bound says: of the high part, and one
     /// step of Newton's method.
     pub fn square_root(&self) -> BoundedDouble {
+        if !(self.value.high.is_finite() && self.error.is_finite()) {
+            // Products have overflowed, and `max` would take NaN for zero, value and error alike.
+            return BoundedDouble { value: DoubleDouble { high: 0.0, low: 0.0 }, error: f64::INFINITY };
+        }
         let root = self.value.high.max(0.0).sqrt();
         if root == 0.0 {
             let zero = DoubleDouble { high: 0.0, low: 0.0 };
@@ -92,5 +96,24 @@ impl Number for BoundedDouble {
 
     fn sign(&self) -> Option<Sign> {
         Sign::certain(self.value.high, self.error + self.value.low.abs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_known_of_the_root_of_what_has_overflowed() {
+        let huge = BoundedDouble::exactly(f32::MAX);
+        let huge = huge.squared().squared().squared();
+        // Infinity minus infinity, without an error that would be larger.
+        let nothing = huge.times(&huge).minus(&huge.times(&huge));
+        assert!(nothing.value.high.is_nan());
+        for root in [nothing.square_root(), huge.times(&huge).square_root()] {
+            assert_eq!((root.sign(), root.rounded()), (None, None));
+        }
+        let four = BoundedDouble::exactly(4.0);
+        assert_eq!(four.square_root().sign(), Some(Sign::Positive));
     }
 }

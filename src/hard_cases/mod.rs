@@ -8,6 +8,7 @@
 pub mod aimed;
 mod cells;
 mod curved;
+pub mod differential;
 mod edges;
 mod ends;
 mod invariance;

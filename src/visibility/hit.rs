@@ -4,7 +4,7 @@ use crate::geometry::curved::{Crossing, ExactParameter, RayStart};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::ray_triangle::{self, RayParameter, RayTriangle};
 use crate::geometry::{ExactPosition, LightPosition, LightSpace};
-use crate::scene::{ImageSize, Primitive, PrimitiveIndex, Scene};
+use crate::scene::{ImageSize, Primitive, PrimitiveIndex, Scene, Shadowing};
 use glam::Vec3;
 use std::cmp::Ordering;
 
@@ -88,8 +88,9 @@ pub(super) fn is_there_beyond(
 /// Keeps the nearer of the stored and the new hit in `stored`.
 ///
 /// Equal exact t is decided by the sorted coordinates of the corners, then by the content of the material
-/// (TRUTH, "Surface points and rays"): never by index, so that the picture does not depend on the order of
-/// the objects. Where even those are equal the two cannot be told apart, and the first stays.
+/// and the part in shadows (TRUTH, "Surface points and rays"): not by index, so that the picture does not depend
+/// on the order of the objects. Where even those are equal the two cannot be told apart, and the first of the
+/// scene is taken: a tree meets them in another order than a list does, and both should name the same.
 pub(crate) fn keep_nearer(stored: &mut Option<Hit>, new: Hit, scene: &Scene, origin: Vec3, direction: Vec3) {
     let nearer = match stored {
         None => true,
@@ -126,8 +127,14 @@ fn tie_order(scene: &Scene, a: PrimitiveIndex, b: PrimitiveIndex) -> Ordering {
             m.transmission.map(|t| (t.transmittance, t.refractive_index)),
         )
     };
+    let shadowing = |primitive| {
+        let Shadowing { casts, receives } = scene.object(primitive).shadowing;
+        (casts, receives)
+    };
     numbers(a)
         .partial_cmp(&numbers(b))
         .expect("finite")
         .then_with(|| material(a).partial_cmp(&material(b)).unwrap_or(Ordering::Equal))
+        .then_with(|| shadowing(a).cmp(&shadowing(b)))
+        .then_with(|| a.cmp(&b))
 }

@@ -4,6 +4,7 @@ mod embree_modes;
 mod epsilon;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+mod fuzz;
 mod hard_cases;
 mod hostile;
 mod info;

@@ -79,7 +79,7 @@ impl Class {
         };
         let light = match self {
             Class::Ends if number % 4 > 1 => {
-                let triangle = targets::pick(&stage.triangles, &mut random);
+                let triangle = random.pick(&stage.triangles);
                 nudged(targets::inside(triangle, &mut random), &mut random)
             }
             _ => stage.light(&mut random),
@@ -87,7 +87,7 @@ impl Class {
         let resolution = match number % 64 {
             // Fine buffers of large triangles take long to build.
             63 => 1000,
-            _ => *targets::pick(&[1, 2, 3, 7, 33, 64, 100], &mut random),
+            _ => *random.pick(&[1, 2, 3, 7, 33, 64, 100]),
         };
         let from = light.as_dvec3();
         let points: Vec<Vec3> = self
@@ -95,7 +95,7 @@ impl Class {
             .into_iter()
             .map(|aim| {
                 // At the target itself, just behind it, or far.
-                let behind = *targets::pick(&[1.0, 1.0 + 1e-6, 1.25, 2.0, 4.0], &mut random);
+                let behind = *random.pick(&[1.0, 1.0 + 1e-6, 1.25, 2.0, 4.0]);
                 nudged(from + (aim - from) * behind, &mut random)
             })
             .filter(|point| point.is_finite())
@@ -112,22 +112,20 @@ impl Class {
         let aim: Box<dyn Fn(&mut Random) -> DVec3> = match self {
             Class::Edges => {
                 let edges = targets::edges(&stage.triangles);
-                Box::new(move |random| targets::on_an_edge(*targets::pick(&edges, random), random))
+                Box::new(move |random| targets::on_an_edge(*random.pick(&edges), random))
             }
             Class::Silhouettes => {
                 let edges = targets::silhouettes(&stage.triangles, light);
                 if edges.is_empty() {
                     return Vec::new();
                 }
-                Box::new(move |random| targets::on_an_edge(*targets::pick(&edges, random), random))
+                Box::new(move |random| targets::on_an_edge(*random.pick(&edges), random))
             }
             Class::Corners => {
                 let corners = stage.triangles.as_flattened();
-                Box::new(|random| targets::pick(corners, random).as_dvec3())
+                Box::new(|random| random.pick(corners).as_dvec3())
             }
-            Class::Ends => {
-                Box::new(|random| targets::inside(targets::pick(&stage.triangles, random), random))
-            }
+            Class::Ends => Box::new(|random| targets::inside(random.pick(&stage.triangles), random)),
             Class::CellBorders => Box::new(|random| {
                 targets::along(light, targets::border_direction(resolution, random), stage, random)
             }),
@@ -139,7 +137,7 @@ impl Class {
                 let shapes: Vec<_> = alone.iter().map(|shape| (shape, shape.hierarchy())).collect();
                 return (0..RAYS)
                     .filter_map(|_| {
-                        let (shape, hierarchy) = targets::pick(&shapes, random);
+                        let (shape, hierarchy) = random.pick(&shapes);
                         shape.tangent(hierarchy, light, random)
                     })
                     .collect();
@@ -150,7 +148,7 @@ impl Class {
 }
 
 /// The nearest point in f32, or one a few ulps beside it.
-fn nudged(point: DVec3, random: &mut Random) -> Vec3 {
+pub(super) fn nudged(point: DVec3, random: &mut Random) -> Vec3 {
     let move_by_ulps = |value: f32| {
         let ulps = (random.unit() * f64::from(2 * ULPS + 1)) as i32 - ULPS;
         (0..ulps.abs()).fold(value, |value, _| if ulps > 0 { value.next_up() } else { value.next_down() })

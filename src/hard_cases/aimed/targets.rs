@@ -11,11 +11,6 @@ use crate::visibility::hierarchy::{Hierarchy, Ray};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 
-/// One of several.
-pub fn pick<'t, T>(several: &'t [T], random: &mut Random) -> &'t T {
-    &several[(random.unit() * several.len() as f64) as usize]
-}
-
 /// A point of an edge.
 pub fn on_an_edge([a, b]: [Vec3; 2], random: &mut Random) -> DVec3 {
     let share = if random.unit() < 0.25 { 0.5 } else { random.unit() };
