@@ -61,6 +61,7 @@ aimed-rays: packages
 hard-cases: packages
 	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --release --test hard_cases -- --test-threads=1
 	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --test hard_cases -- --test-threads=1
+
 SECONDS ?= 60
 differential-fuzzing: packages
 	$(CARGO) run --release -- fuzz --seconds $(SECONDS) -o out/findings
