@@ -5,6 +5,7 @@
 #   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
 #   make lint                      formatting and warnings
 #   make aimed-rays RAYS=1700000   the tests of rays aimed at edges, corners and the like, with so many of each kind
+#   make fuzz RUNS=1200000        every loader under libFuzzer, with so many executions of each
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
@@ -16,7 +17,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays fuzz planted-bugs clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -49,12 +50,17 @@ test-scenes: packages
 
 lint: packages
 	$(CARGO) fmt --check
+	$(CARGO) fmt --check --manifest-path fuzz/Cargo.toml
 	$(CARGO) clippy --all-targets -- -D warnings
 
 # A good part of them see nothing or face away: so many leave a million queries of each kind.
 RAYS ?= 1700000
 aimed-rays: packages
 	AIMED_RAYS=$(RAYS) $(CARGO) test --release --test aimed_rays -- --nocapture --test-threads=1
+
+RUNS ?= 1200000
+fuzz: packages
+	RUNS=$(RUNS) bash fuzz/run.sh
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

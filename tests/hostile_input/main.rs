@@ -16,6 +16,7 @@ mod paths;
 mod ply_files;
 #[path = "../formats/ply_writer.rs"]
 mod ply_writer;
+mod samples;
 mod toml_curved;
 mod toml_files;
 
