@@ -1,7 +1,7 @@
 //! What the programs in `fuzz_targets/` share: one input is loaded within its limits of time and memory.
 
 pub mod allocator;
-#[allow(dead_code, reason = "the programs use one part of it each, and the crate's tests another")]
+#[allow(dead_code, unused_imports, reason = "the test that replays the corpus uses more of it")]
 pub mod checks;
 mod figures;
 

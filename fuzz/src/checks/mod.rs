@@ -130,7 +130,7 @@ fn refusal(path: &Path, error: &lightbuffer::Error) -> String {
     let folder = path.parent().expect("files lie in a folder").display().to_string();
     assert!(line.starts_with(&folder), "{line:?} does not name the file");
     assert_printable(&line);
-    assert!(line.len() < folder.len() + 1200, "{} bytes are too long for a line: {line:?}", line.len());
+    assert!(line.len() < folder.len() + 600, "{} bytes are too long for a line: {line:?}", line.len());
     line
 }
 

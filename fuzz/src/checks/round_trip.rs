@@ -10,7 +10,7 @@ const FEW: usize = 256;
 /// cannot say something must refuse in one line.
 pub fn check(desk: &Desk, scene: &Scene) {
     let texels: usize = scene.textures.iter().map(texels).sum();
-    if scene.primitive_count() > FEW || texels > FEW {
+    if scene.primitive_count() as usize > FEW || texels > FEW {
         return;
     }
     if let Some(again) = written(desk, scene, "again.toml") {

@@ -1,20 +1,7 @@
-//! Writes the valid files that the fuzzer begins with into `corpus/`: `cargo run --bin seeds`.
+//! The valid files that the fuzzer begins with.
 
-#[allow(dead_code, reason = "the seeds need less of it than the fuzzer")]
-#[path = "../checks/mod.rs"]
-mod checks;
-#[allow(dead_code, reason = "shared with the tests of the crate above")]
-#[path = "../../../tests/formats/fixtures.rs"]
-mod fixtures;
-#[allow(dead_code, reason = "shared with the tests of the crate above")]
-#[path = "../../../tests/formats/gltf_parts.rs"]
-mod gltf_parts;
-#[path = "../../../tests/formats/ply_writer.rs"]
-mod ply_writer;
-#[path = "../../../tests/hostile_input/samples.rs"]
-mod samples;
-
-use checks::{Desk, Outcome, SEPARATOR, Target};
+use crate::checks::{self, Desk, Outcome, SEPARATOR, Target};
+use crate::{fixtures, gltf_parts, ply_writer, samples};
 use image::{DynamicImage, ImageFormat};
 use lightbuffer::film::{ImagePlanes, write_exr};
 use lightbuffer::scene::ImageSize;
@@ -25,10 +12,11 @@ use std::path::Path;
 /// A name that tells what the file has, and the file.
 type Seed = (&'static str, Vec<u8>);
 
-fn main() {
+/// Writes all of them into the corpus.
+pub fn write(corpus: &Path) {
     let mut desk = Desk::new();
     for target in Target::ALL {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target.name());
+        let folder = corpus.join(target.name());
         std::fs::create_dir_all(&folder).expect("a folder for the corpus");
         for (name, file) in seeds(target) {
             if let Outcome::Refused(why) = target.check(&file, &mut desk) {

@@ -1,7 +1,16 @@
 //! The corpus of `fuzz/`, file by file, through the checks of the fuzzer: no tool is needed for that.
 
-#[path = "../fuzz/src/checks/mod.rs"]
+#[path = "../../fuzz/src/checks/mod.rs"]
 mod checks;
+#[path = "../formats/fixtures.rs"]
+mod fixtures;
+#[path = "../formats/gltf_parts.rs"]
+mod gltf_parts;
+#[path = "../formats/ply_writer.rs"]
+mod ply_writer;
+#[path = "../hostile_input/samples.rs"]
+mod samples;
+mod seeds;
 
 use checks::{Desk, Outcome, Target, assert_whole};
 use lightbuffer::scene::{ObjectInput, Scene, SceneBuilder};
@@ -81,6 +90,13 @@ fn every_target_is_replayed_and_has_a_program_and_a_dictionary() {
             files.iter().map(|(name, _)| name.strip_suffix(ending).unwrap().replace('_', "-")).collect();
         assert_eq!(files, names, "{folder}");
     }
+}
+
+/// Not a test: `cargo test --test fuzz_corpus -- --ignored` writes the seeds anew, after a format has changed.
+#[test]
+#[ignore = "writes fuzz/corpus"]
+fn write_the_seeds() {
+    seeds::write(&fuzz().join("corpus"));
 }
 
 #[test]
