@@ -2,6 +2,7 @@
 
 #[path = "../../fuzz/src/checks/mod.rs"]
 mod checks;
+#[allow(dead_code, reason = "the seeds need a part of it")]
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
 #[path = "../formats/gltf_parts.rs"]

@@ -82,7 +82,7 @@ fn toml() -> Vec<Seed> {
     let everything = joined(&[samples::TOML.as_bytes(), samples::OBJ.as_bytes()]);
     let included = "version = 1\nbackground = 0.5\n[[disc]]\ncentre = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 1\n\
         [[plane]]\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\n[[ellipsoid]]\ncentre = [0, 3, 0]\nradii = [1, 2, 3]\n\
-        [[cylinder]]\nbase = [0, 0, 0]\ntop = [0, 2, 0]\nradius = 0.5\n";
+        [[cylinder]]\nbase = [0, 0, 0]\napex = [0, 2, 0]\nradius = 0.5\n";
     let nested = "version = 1\nname = 'nested'\n[[include]]\npath = 'part.toml'\ncameras = true\n[[include]]\n\
         path = 'part.toml'\ntransform = { rotate = { axis = [1, 1, 0], degrees = 45 } }\n[[mesh]]\nmaterial = 'a'\n\
         vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\ntexture_coordinates = [[0, 0], [1, 0], [0, 1]]\n\
