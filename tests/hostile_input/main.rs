@@ -9,6 +9,7 @@ mod gltf_features;
 mod gltf_files;
 #[path = "../formats/gltf_parts.rs"]
 mod gltf_parts;
+mod memory;
 mod mutations;
 mod nff_files;
 mod obj_files;
