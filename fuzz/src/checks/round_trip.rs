@@ -1,7 +1,7 @@
 //! Scenes that are written and loaded again.
 
 use super::{Desk, refusal};
-use lightbuffer::scene::{Scene, formats};
+use lightbuffer::scene::{Material, Pattern, Scene, Texture, formats};
 
 /// The most primitives and texels of a scene that is written again: most runs would be spent on nothing else.
 const FEW: usize = 256;
@@ -23,10 +23,10 @@ pub fn check(desk: &Desk, scene: &Scene) {
     }
 }
 
-fn texels(texture: &lightbuffer::scene::Texture) -> usize {
+fn texels(texture: &Texture) -> usize {
     match &texture.pattern {
-        lightbuffer::scene::Pattern::Image { image, .. } => image.texels.len(),
-        lightbuffer::scene::Pattern::Checker { .. } => 0,
+        Pattern::Image { image, .. } => image.texels.len(),
+        Pattern::Checker { .. } => 0,
     }
 }
 
@@ -41,14 +41,15 @@ fn written(desk: &Desk, scene: &Scene, name: &str) -> Option<Scene> {
     }
 }
 
-/// What TOML must give back beside the geometry, which the hash is of.
+/// What TOML must give back beside the geometry, which the hash is of. Names of materials are left out: of several that
+/// share one, which TOML could not tell apart, all but the first get numbers.
 fn whole(scene: &Scene) -> Vec<String> {
     let mut lines = vec![format!("{:?} {:?}", scene.name, scene.background.map(f32::to_bits))];
     lines.extend(scene.objects.iter().map(|object| {
-        let material = &scene.materials[object.material as usize].name;
-        format!("{:?} {} {:?} {material:?}", object.name, object.polygons, object.shadowing)
+        format!("{:?} {} {:?} {}", object.name, object.polygons, object.shadowing, object.material)
     }));
-    lines.extend(scene.materials.iter().map(|material| format!("{material:?}")));
+    let nameless = |material: &Material| Material { name: String::new(), ..material.clone() };
+    lines.extend(scene.materials.iter().map(|material| format!("{:?}", nameless(material))));
     lines.extend(scene.textures.iter().map(|texture| format!("{texture:?}")));
     lines.extend(scene.lights.iter().map(|light| format!("{light:?}")));
     lines.extend(scene.cameras.iter().map(|camera| format!("{camera:?}")));
