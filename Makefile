@@ -7,6 +7,7 @@
 #   make aimed-rays RAYS=1700000   the tests of rays aimed at edges, corners and the like, with so many of each kind
 #   make hard-cases                the 47 hard cases at 17 resolutions from 1 to 2048, by one and two threads, in debug and release
 #   make differential-fuzzing SECONDS=3600   random small scenes for so long, all testers against each other
+#   make fuzz RUNS=1200000        every loader under libFuzzer, with so many executions of each
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
@@ -18,7 +19,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases differential-fuzzing planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases differential-fuzzing fuzz planted-bugs clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -51,6 +52,7 @@ test-scenes: packages
 
 lint: packages
 	$(CARGO) fmt --check
+	$(CARGO) fmt --check --manifest-path fuzz/Cargo.toml
 	$(CARGO) clippy --all-targets -- -D warnings
 
 # A good part of them see nothing or face away: so many leave a million queries of each kind.
@@ -65,6 +67,10 @@ hard-cases: packages
 SECONDS ?= 60
 differential-fuzzing: packages
 	$(CARGO) run --release -- fuzz --seconds $(SECONDS) -o out/findings
+
+RUNS ?= 1200000
+fuzz: packages
+	RUNS=$(RUNS) bash fuzz/run.sh
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

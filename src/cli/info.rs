@@ -10,6 +10,7 @@ use crate::film::grouped;
 use crate::geometry::LightPosition;
 use crate::geometry::convexity::Surface;
 use crate::geometry::solid::Refusal;
+use crate::memory::MemoryLimit;
 use crate::scene::{Light, Object, Scene};
 use crate::shadow::SceneIndex;
 use serde::Serialize;
@@ -86,7 +87,8 @@ struct ConeFacts {
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
-    let view = View::load(&args.view, &args.lights, Messages::new(args.quiet))?;
+    let view =
+        View::load(&args.view, &args.lights, MemoryLimit::of_this_machine(), Messages::new(args.quiet))?;
     let facts = facts(&view);
     if let Some(path) = &args.json {
         output::write_json(path, &facts)?;

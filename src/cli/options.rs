@@ -207,7 +207,7 @@ pub struct RunOptions {
     /// Threads [default: all]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// The most memory that the image or a tester may need, such as 16G [default: what the machine has free]
+    /// The most memory that the scene, the image or a tester may need, such as 16G [default: what the machine has free]
     #[arg(long, value_name = "BYTES", value_parser = memory::parse)]
     pub memory_limit: Option<MemoryLimit>,
     /// Brighten PNG previews by this many stops

@@ -139,7 +139,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     }
     output::expect_writable(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
-    let mut view = View::load(&args.view, &args.lights, messages)?;
+    let mut view = View::load(&args.view, &args.lights, args.run.memory_limit(), messages)?;
     tester.map_or(Ok(()), |tester| expect_lights(tester, &view.scene.lights))?;
     view.subdivide(args.subdivide)?;
     let seen = view.look(args.switches.look(args.trees.depth), args.run.memory_limit())?;

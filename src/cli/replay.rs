@@ -48,7 +48,7 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
         lights: args.lights.iter().filter_map(LightArgument::position).collect(),
         rig: args.rig,
     };
-    let view = View::load(&args.view, &lights, messages)?;
+    let view = View::load(&args.view, &lights, args.run.memory_limit(), messages)?;
     let light =
         choose_light(&view.scene.lights, args.lights.iter().filter_map(LightArgument::name).next_back())?;
     let seen = view.look(LookRules::usual(1), args.run.memory_limit())?;

@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
     output::expect_folder(&args.output)?;
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
-    let view = View::load(&args.view, &args.lights, messages)?;
+    let view = View::load(&args.view, &args.lights, args.run.memory_limit(), messages)?;
     for entry in entries.iter().filter(|entry| args.testers.is_named(entry.name)) {
         expect_lights(entry, &view.scene.lights)?;
     }

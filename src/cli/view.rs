@@ -29,9 +29,14 @@ impl View {
     /// Loads the scene and applies the options; says what it had to add or leave out.
     ///
     /// # Errors
-    /// Whatever the loader finds, an unknown camera, or any warning under `--strict`.
-    pub fn load(options: &ViewOptions, lights: &LightOptions, messages: Messages) -> Result<View> {
-        let mut scene = formats::load(&options.scene)?;
+    /// Whatever the loader finds, more memory than the limit, an unknown camera, or any warning under `--strict`.
+    pub fn load(
+        options: &ViewOptions,
+        lights: &LightOptions,
+        limit: MemoryLimit,
+        messages: Messages,
+    ) -> Result<View> {
+        let mut scene = formats::load_within(&options.scene, limit)?;
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
         }

@@ -9,6 +9,7 @@ mod gltf_features;
 mod gltf_files;
 #[path = "../formats/gltf_parts.rs"]
 mod gltf_parts;
+mod memory;
 mod mutations;
 mod nff_files;
 mod obj_files;
@@ -16,6 +17,7 @@ mod paths;
 mod ply_files;
 #[path = "../formats/ply_writer.rs"]
 mod ply_writer;
+mod samples;
 mod toml_curved;
 mod toml_files;
 

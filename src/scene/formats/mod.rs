@@ -5,6 +5,7 @@
 //! one line with file and place. What is left out without being an error is among the scene's warnings.
 
 mod confined;
+mod estimate;
 mod gltf;
 pub mod limits;
 mod looking;
@@ -23,6 +24,7 @@ pub use save::save;
 use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
 use crate::float_environment::StandardFloats;
+use crate::memory::MemoryLimit;
 use std::path::Path;
 
 /// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`,
@@ -34,6 +36,15 @@ use std::path::Path;
 /// # Errors
 /// One line with file and place for whatever cannot be read, and for a file without a single primitive.
 pub fn load(path: &Path) -> Result<Scene> {
+    load_within(path, MemoryLimit::NONE)
+}
+
+/// The same within a limit for what no file bounds by its own bytes: instances, files that are included more than
+/// once, pictures, and accessors of zeros. Each is estimated before any memory is asked for.
+///
+/// # Errors
+/// As [`load`], and [`Error::Input`] for what would need more.
+pub fn load_within(path: &Path, limit: MemoryLimit) -> Result<Scene> {
     let _floats = StandardFloats::new();
     if let Some(name) = path.to_str().and_then(|path| path.strip_prefix(BUILTIN_PREFIX)) {
         return procedural::find(name)?.build(None);
@@ -41,10 +52,10 @@ pub fn load(path: &Path) -> Result<Scene> {
     let scene = match Format::of(path) {
         Some(Format::Obj) => obj::load(path)?,
         Some(Format::Ply) => ply::load(path)?,
-        Some(Format::Gltf) => gltf::load(path, gltf::Container::Text)?,
-        Some(Format::Glb) => gltf::load(path, gltf::Container::Binary)?,
+        Some(Format::Gltf) => gltf::load(path, gltf::Container::Text, limit)?,
+        Some(Format::Glb) => gltf::load(path, gltf::Container::Binary, limit)?,
         Some(Format::Nff) => nff::load(path)?,
-        Some(Format::Toml) => toml::load(path)?,
+        Some(Format::Toml) => toml::load(path, limit)?,
         None => return Err(Error::input(path, Place::File, Format::EXPECTED)),
     };
     if scene.primitive_count() == 0 {

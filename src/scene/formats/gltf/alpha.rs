@@ -11,6 +11,7 @@ use super::images::{self, Spent};
 use super::materials;
 use super::schema::{Document, MaterialEntry};
 use super::textures::{self, Placement};
+use crate::memory::MemoryLimit;
 use crate::scene::formats::text::printable;
 use crate::scene::{AlphaMask, Coverage, SceneBuilder, Wrap};
 use std::collections::BTreeMap;
@@ -74,8 +75,9 @@ impl<'a> Masks<'a> {
         document: &'a Document,
         buffers: &'a Buffers<'a>,
         accessors: &'a Accessors<'a>,
+        limit: MemoryLimit,
     ) -> Masks<'a> {
-        Masks { document, buffers, accessors, known: BTreeMap::new(), spent: Spent::default() }
+        Masks { document, buffers, accessors, known: BTreeMap::new(), spent: Spent::within(limit) }
     }
 
     /// Where the surfaces of a material are there.

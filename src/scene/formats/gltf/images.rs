@@ -3,11 +3,11 @@
 use super::accessors::Accessors;
 use super::buffers::Buffers;
 use super::schema::Document;
-use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_IMAGE_TEXELS, MAX_REFERENCED_BYTES};
-use image::codecs::png::PngDecoder;
-use image::{ColorType, ImageDecoder, Limits};
+use crate::memory::MemoryLimit;
+use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_REFERENCED_BYTES};
+use crate::scene::formats::pictures;
+use image::{ColorType, ImageDecoder};
 use std::borrow::Cow;
-use std::io::Cursor;
 
 /// Alpha by column and row.
 pub(super) struct Alpha {
@@ -40,10 +40,17 @@ impl Alpha {
 
 /// What images have cost so far. One that is read again, since other materials ask other things of it, costs
 /// as much again.
-#[derive(Default)]
 pub(super) struct Spent {
     bytes: u64,
-    texels: u64,
+    texels_left: u64,
+    limit: MemoryLimit,
+}
+
+impl Spent {
+    /// Nothing yet, of what one image may take while it is decoded.
+    pub(super) fn within(limit: MemoryLimit) -> Spent {
+        Spent { bytes: 0, texels_left: MAX_ALL_TEXELS, limit }
+    }
 }
 
 /// The alpha channel of an image, `None` if it has none, which means that all of it is opaque.
@@ -52,7 +59,7 @@ pub(super) struct Spent {
 ///
 /// # Errors
 /// A line if there is no such image, its file or view cannot be read, it is neither PNG nor JPEG, is broken,
-/// has more than [`MAX_IMAGE_TEXELS`], or all together have more than [`MAX_ALL_TEXELS`] or
+/// declares more than its bytes can hold, or all together have more than [`MAX_ALL_TEXELS`] or
 /// [`MAX_REFERENCED_BYTES`].
 pub(super) fn alpha(
     document: &Document,
@@ -83,10 +90,7 @@ pub(super) fn alpha(
 }
 
 fn png_alpha(bytes: &[u8], spent: &mut Spent) -> Result<Option<Alpha>, String> {
-    let broken = |error: image::ImageError| format!("it cannot be read as PNG: {error}");
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_IMAGE_TEXELS * 8);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
+    let decoder = pictures::decoder(bytes)?;
     let layout = match decoder.color_type() {
         ColorType::La8 => Layout { size: 2, deep: false },
         ColorType::Rgba8 => Layout { size: 4, deep: false },
@@ -95,19 +99,13 @@ fn png_alpha(bytes: &[u8], spent: &mut Spent) -> Result<Option<Alpha>, String> {
         _ => return Ok(None),
     };
     let (width, height) = decoder.dimensions();
-    let count = u64::from(width) * u64::from(height);
-    if count > MAX_IMAGE_TEXELS {
-        return Err(format!("{width} x {height} texels, expected at most {MAX_IMAGE_TEXELS}"));
-    }
-    spent.texels += count;
-    if spent.texels > MAX_ALL_TEXELS {
-        return Err(format!("all images together have more than {MAX_ALL_TEXELS} texels"));
-    }
+    // The mask that comes of it takes a bit a texel.
+    pictures::check_size(&decoder, bytes, 1, &mut spent.texels_left, spent.limit)?;
     // At least one texel each way, or the decoder had refused it; at most 2^26 of at most eight bytes.
     let mut texels = vec![0; width as usize * height as usize * layout.size];
     if decoder.total_bytes() != texels.len() as u64 {
         return Err("it cannot be read as PNG: its size is in doubt".into());
     }
-    decoder.read_image(&mut texels).map_err(broken)?;
+    decoder.read_image(&mut texels).map_err(pictures::broken)?;
     Ok(Some(Alpha { width, height, layout, texels }))
 }

@@ -40,6 +40,7 @@ use super::limits::MAX_LIGHTS;
 use super::scene_name;
 use super::text::printable;
 use crate::error::{Error, Place, Result};
+use crate::memory::MemoryLimit;
 use crate::scene::{Scene, SceneBuilder};
 use std::path::Path;
 
@@ -57,7 +58,7 @@ pub(super) enum Container {
 /// # Errors
 /// One line with file and place (a line of the JSON, or an element by index and name) for whatever cannot be
 /// read as geometry, camera or light, and for required extensions that are not supported.
-pub(super) fn load(path: &Path, named: Container) -> Result<Scene> {
+pub(super) fn load(path: &Path, named: Container, limit: MemoryLimit) -> Result<Scene> {
     let bytes = confined::read_scene(path)?;
     let Parts { document, binary } = container::open(path, &bytes, named)?;
     let at = |element: String, why: String| Error::input(path, Place::Element(element), why);
@@ -66,13 +67,13 @@ pub(super) fn load(path: &Path, named: Container) -> Result<Scene> {
         usize::MAX => at("scenes".into(), why),
         _ => at(nodes::describe(&document, index), why),
     })?;
-    let needed = totals::check(&document, &placed).map_err(|(element, why)| at(element, why))?;
+    let needed = totals::check(&document, &placed, limit).map_err(|(element, why)| at(element, why))?;
 
     let mut builder = SceneBuilder::new(scene_name(path));
     let mut findings = Findings::default();
     let buffers = Buffers::new(&document.buffers, binary, Room::beside(path)?);
     let accessors = Accessors::new(&document, &buffers);
-    let mut masks = Masks::new(&document, &buffers, &accessors);
+    let mut masks = Masks::new(&document, &buffers, &accessors, limit);
     let mut presences = Vec::new();
     for (index, entry) in document.materials.iter().enumerate() {
         let presence = match needed[index] {

@@ -4,6 +4,8 @@ use super::instancing;
 use super::nodes::{self, Placed};
 use super::primitives::{self, Mode};
 use super::schema::{Document, Mesh};
+use crate::memory::MemoryLimit;
+use crate::scene::formats::estimate::Estimate;
 use crate::scene::formats::limits::{MAX_OBJECTS, MAX_TRIANGLES};
 
 /// What is wrong: an element and a line.
@@ -24,10 +26,14 @@ pub(super) fn describe_primitive(mesh: usize, primitive: usize) -> String {
 ///
 /// # Errors
 /// An element and a line if a mesh or material does not exist, or a limit is exceeded.
-pub(super) fn check(document: &Document, placed: &[Placed]) -> Result<Vec<bool>, ElementError> {
+pub(super) fn check(
+    document: &Document,
+    placed: &[Placed],
+    limit: MemoryLimit,
+) -> Result<Vec<bool>, ElementError> {
     let mut needed = vec![false; document.materials.len()];
     let mut of_mesh: Vec<Option<u64>> = vec![None; document.meshes.len()];
-    let (mut objects, mut triangles) = (0u64, 0u64);
+    let (mut objects, mut triangles, mut at_once) = (0u64, 0u64, 0u64);
     for place in placed {
         let Some(index) = place.node.mesh else { continue };
         let node = |why: String| (nodes::describe(document, place.index), why);
@@ -41,6 +47,7 @@ pub(super) fn check(document: &Document, placed: &[Placed]) -> Result<Vec<bool>,
         let shown = (mesh.primitives.len() as u64).max(1);
         objects = objects.saturating_add(instances.saturating_mul(shown));
         triangles = triangles.saturating_add(instances.saturating_mul(own));
+        at_once = at_once.max(own);
     }
     if objects > MAX_OBJECTS {
         return Err(("nodes".into(), format!("{objects} objects, expected at most {MAX_OBJECTS}")));
@@ -48,6 +55,8 @@ pub(super) fn check(document: &Document, placed: &[Placed]) -> Result<Vec<bool>,
     if triangles > MAX_TRIANGLES {
         return Err(("nodes".into(), format!("{triangles} triangles, expected at most {MAX_TRIANGLES}")));
     }
+    let estimate = Estimate { objects, triangles, at_once, ..Estimate::default() };
+    estimate.check(limit).map_err(|why| ("nodes".into(), why))?;
     Ok(needed)
 }
 

@@ -4,6 +4,7 @@ use super::document::{self, Complaint, Content, Include};
 use super::parts::Layout;
 use super::totals::{Held, Totals};
 use crate::error::{Error, Place, Result};
+use crate::memory::MemoryLimit;
 use crate::scene::formats::confined::{self, Room};
 use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_INCLUDE_DEPTH};
 use crate::scene::formats::limits::{MAX_REFERENCED_BYTES, MAX_TOML_BYTES};
@@ -32,6 +33,8 @@ pub(super) struct Library {
     pictures: HashMap<PathBuf, Arc<Image>>,
     /// Texels that pictures may still have.
     texels_left: u64,
+    /// What the whole scene may take.
+    limit: MemoryLimit,
 }
 
 /// A file.
@@ -64,7 +67,7 @@ impl Library {
     /// # Errors
     /// One line with file and place for what cannot be read, leads out of a file's folder, includes itself,
     /// or would become more than a scene may hold.
-    pub(super) fn read(path: &Path) -> Result<(Library, Option<String>)> {
+    pub(super) fn read(path: &Path, limit: MemoryLimit) -> Result<(Library, Option<String>)> {
         let mut library = Library {
             sources: Vec::new(),
             known: HashMap::new(),
@@ -74,6 +77,7 @@ impl Library {
             bytes_left: MAX_REFERENCED_BYTES,
             pictures: HashMap::new(),
             texels_left: MAX_ALL_TEXELS,
+            limit,
         };
         let canonical = path.canonicalize().map_err(|error| Error::io(path, "read", error))?;
         let name = library.read_document(path, canonical)?;
@@ -94,7 +98,8 @@ impl Library {
         let Content { name, mut background, scene, layout, includes } = content;
         self.held.add(&scene).map_err(|why| Error::input(path, Place::File, why))?;
         let own = Totals { objects: layout.objects.len() as u64, ..Totals::of(&scene) };
-        let mut totals = Totals::default().plus(own).map_err(|why| Error::input(path, Place::File, why))?;
+        let mut totals =
+            Totals::default().plus(own, self.limit).map_err(|why| Error::input(path, Place::File, why))?;
         self.open.push(canonical);
         let mut inclusions = Vec::with_capacity(includes.len());
         // The operating system need not be asked twice about one name.
@@ -114,7 +119,7 @@ impl Library {
             if !entry.cameras {
                 added.cameras = 0;
             }
-            totals = totals.plus(added).map_err(|why| at_line(line, why))?;
+            totals = totals.plus(added, self.limit).map_err(|why| at_line(line, why))?;
             inclusions.push(Inclusion { source, line, entry });
         }
         let canonical = self.open.pop().expect("pushed above");
@@ -154,7 +159,7 @@ impl Library {
                 self.bytes_left = self.bytes_left.checked_sub(bytes).ok_or_else(|| {
                     error(format!("all included files hold more than {MAX_REFERENCED_BYTES} bytes"))
                 })?;
-                let scene = formats::load(&shown)?;
+                let scene = formats::load_within(&shown, self.limit)?;
                 self.held.add(&scene).map_err(error)?;
                 let totals = Totals::of(&scene);
                 let source = Source {
@@ -181,7 +186,7 @@ impl Library {
         let left = self.bytes_left.checked_sub(bytes.len() as u64);
         self.bytes_left =
             left.ok_or_else(|| format!("all included files hold more than {MAX_REFERENCED_BYTES} bytes"))?;
-        let picture = pictures::read(&bytes, &mut self.texels_left);
+        let picture = pictures::read(&bytes, &mut self.texels_left, self.limit);
         let picture = Arc::new(picture.map_err(|why| format!("`{}`: {why}", printable(name)))?);
         self.pictures.insert(located, picture.clone());
         Ok(picture)

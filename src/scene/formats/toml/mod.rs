@@ -32,6 +32,7 @@ use self::library::{Library, Source};
 use super::scene_name;
 use super::text::printable;
 use crate::error::{Error, Place, Result};
+use crate::memory::MemoryLimit;
 use crate::scene::{Adopted, ObjectInput, Placement, Scene, SceneBuilder};
 use glam::DAffine3;
 use std::path::Path;
@@ -40,8 +41,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// One line with file and place for whatever cannot be read in it or in a file that it includes.
-pub(super) fn load(path: &Path) -> Result<Scene> {
-    let (library, name) = Library::read(path)?;
+pub(super) fn load(path: &Path, limit: MemoryLimit) -> Result<Scene> {
+    let (library, name) = Library::read(path, limit)?;
     let builder = SceneBuilder::new(name.unwrap_or_else(|| scene_name(path)));
     let adopted = library.sources.iter().map(|_| None).collect();
     let mut assembly = Assembly { library: &library, builder, adopted };

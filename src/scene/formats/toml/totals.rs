@@ -1,6 +1,8 @@
 //! How much a scene holds, counted before any of it is placed.
 
+use crate::memory::MemoryLimit;
 use crate::scene::Scene;
+use crate::scene::formats::estimate::Estimate;
 use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_CAMERAS, MAX_LIGHTS, MAX_OBJECTS};
 use crate::scene::formats::limits::{MAX_CURVED, MAX_PLACEMENTS, MAX_TRIANGLES, MAX_VERTICES};
 
@@ -32,20 +34,24 @@ impl Totals {
     /// Both together.
     ///
     /// # Errors
-    /// A line if that is more than a scene may hold.
-    pub(super) fn plus(self, other: Totals) -> Result<Totals, String> {
+    /// A line if that is more than a scene may hold, or more than fits into memory.
+    pub(super) fn plus(self, other: Totals, limit: MemoryLimit) -> Result<Totals, String> {
         let sum = |most: u64, what: &str, of: fn(&Totals) -> u64| {
             let sum = of(&self).saturating_add(of(&other));
             if sum > most { Err(format!("{sum} {what}, expected at most {most}")) } else { Ok(sum) }
         };
-        Ok(Totals {
+        let totals = Totals {
             placements: sum(MAX_PLACEMENTS, "included files", |totals| totals.placements)?,
             objects: sum(MAX_OBJECTS, "objects", |totals| totals.objects)?,
             triangles: sum(MAX_TRIANGLES, "triangles", |totals| totals.triangles)?,
             curved: sum(MAX_CURVED, "curved surfaces", |totals| totals.curved)?,
             lights: sum(MAX_LIGHTS as u64, "lights", |totals| totals.lights)?,
             cameras: sum(MAX_CAMERAS, "cameras", |totals| totals.cameras)?,
-        })
+        };
+        let Totals { objects, triangles, curved, lights, cameras, .. } = totals;
+        let estimate = Estimate { objects, triangles, curved, named: lights + cameras, at_once: triangles };
+        estimate.check(limit)?;
+        Ok(totals)
     }
 }
 

@@ -1,0 +1,3 @@
+#![no_main]
+
+lightbuffer_fuzz::program!(Gltf);

@@ -1,0 +1,37 @@
+//! OpenEXR files.
+
+use super::{Desk, Outcome, refusal};
+use lightbuffer::film::{ImagePlanes, read_exr, write_exr};
+
+/// The most samples of an image that is written again.
+const FEW_SAMPLES: usize = 1 << 12;
+
+pub fn check(desk: &mut Desk, input: &[u8]) -> Outcome {
+    desk.lay(&[("image.exr", input)]);
+    let path = desk.path("image.exr");
+    let image = match read_exr(&path) {
+        Ok(image) => image,
+        Err(error) => return Outcome::Refused(refusal(&path, &error)),
+    };
+    let pixels = image.size().pixels();
+    assert!(pixels > 0 && !image.channels().is_empty());
+    assert!(image.channels().iter().all(|plane| plane.samples.len() == pixels));
+    if pixels * image.channels().len() <= FEW_SAMPLES {
+        let again = desk.path("again.exr");
+        match write_exr(&again, &image) {
+            Ok(()) => assert_eq!(bits(&read_exr(&again).expect("what we wrote")), bits(&image)),
+            Err(error) => _ = refusal(&again, &error),
+        }
+    }
+    Outcome::Loaded
+}
+
+/// All channels and attributes by name, with samples that can be compared if they are NaN.
+fn bits(image: &ImagePlanes) -> (Vec<(&str, Vec<u32>)>, Vec<(String, String)>) {
+    let channels = image.channels().iter();
+    let channels = channels.map(|c| (c.name.as_str(), c.samples.iter().map(|s| s.to_bits()).collect()));
+    let (mut channels, mut attributes): (Vec<_>, _) = (channels.collect(), image.attributes().to_vec());
+    channels.sort();
+    attributes.sort();
+    (channels, attributes)
+}
