@@ -4,7 +4,7 @@
 //! arbiter against the definition over all primitives in integers, in one scene of four; the ways to find first hits
 //! against each other. Scenes have little that is generic: corners lie on a coarse lattice, so that edges are shared,
 //! faces coplanar and solids nested, lights lie in planes and on corners, points behind edges and on borders of cells;
-//! or they lie an ulp beside all that ([`recipe`]). A scene is made of a seed and its number alone. What disagrees is
+//! or they lie an ulp beside all that ([`recipe()`]). A scene is made of a seed and its number alone. What disagrees is
 //! made small ([`Finding`]) and written as files that are asked again.
 
 mod aims;
