@@ -17,6 +17,7 @@ use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::volume::{LightSegment, Volume};
 use crate::scene::{Primitive, PrimitiveIndex, Scene};
 use crate::visibility::SurfacePoint;
+use glam::Vec3;
 use hierarchy::{Hierarchy, Member, Node};
 use std::ops::Range;
 
@@ -54,12 +55,19 @@ pub(super) fn cast_objects(scene: &Scene, primitives: &[PrimitiveIndex]) -> Vec<
         end += of_one.len();
         let ends = of_one.iter().flat_map(|&p| match scene.primitive(p) {
             Primitive::Triangle(corners) => corners.to_vec(),
-            Primitive::Curved(shape) => shape.bounds().map_or(vec![], |(low, high)| vec![low, high]),
+            // Two corners would do for a box around them, but not for a sphere.
+            Primitive::Curved(shape) => shape.bounds().map_or(vec![], |ends| box_corners(ends).to_vec()),
         });
         let volume = Volume::around(ends)?;
         Some(CastObject { object: scene.object_index(of_one[0]), casters: first..end, volume })
     };
     primitives.chunk_by(|&a, &b| kind(a) == kind(b)).filter_map(around).collect()
+}
+
+/// All corners of a box, of which the lowest and the highest are given.
+fn box_corners((low, high): (Vec3, Vec3)) -> [Vec3; 8] {
+    let side = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
+    std::array::from_fn(|corner| Vec3::from_array([0, 1, 2].map(|axis| side(corner, axis))))
 }
 
 /// Whether no volume holds a primitive.
@@ -261,5 +269,22 @@ mod tests {
         let mut answers = [true];
         let counters = tester.occluded(&[SurfacePoint::bare(Vec3::ZERO).unwrap()], &mut answers).unwrap();
         assert_eq!((answers, counters), ([false], Counters::default()));
+    }
+
+    /// A sphere around the lowest and the highest corners of the boxes of both would leave out a piece of one.
+    #[test]
+    fn a_volume_holds_all_of_every_curved_surface() {
+        let spheres = [Vec3::new(-4.0, -1172.0, -12.0), Vec3::new(-16.0, -1184.0, 12.0)];
+        let mut builder = SceneBuilder::new("spheres");
+        let curved = spheres.map(|centre| Shape::sphere(centre, 8.0)).to_vec();
+        builder
+            .add_object(ObjectInput { curved, ..ObjectInput::new("both", Vec::new(), Vec::new()) })
+            .unwrap();
+        let scene = builder.finish();
+        let [both] = &cast_objects(&scene, &[0, 1])[..] else { panic!("one object") };
+        let Volume::Sphere { centre, radius } = both.volume else { panic!("a box has more surface") };
+        for sphere in spheres {
+            assert!(centre.distance(sphere) + 8.0 <= radius, "{:?}", both.volume);
+        }
     }
 }
