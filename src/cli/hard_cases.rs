@@ -4,6 +4,7 @@ use super::progress::{Bars, Messages};
 use super::validate::{Args, embree_facts};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
+use crate::film::FileSet;
 use crate::hard_cases::{self, judge_situations};
 use crate::report::hard_cases::{CaseReport, arbiter_wrong, case_table, reports};
 use crate::report::validation::{Totals, Validation};
@@ -26,6 +27,7 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         )));
     }
     output::expect_folder(&args.output)?;
+    output::warn_of_remains(&args.output, messages);
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let threads = rayon::current_num_threads();
     // It compares all that lies at one distance in each of its cells, and 10,000 duplicates would take hours.
@@ -56,14 +58,11 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         cases,
         totals: Totals::of(&all),
     };
-    output::folder(&args.output)?;
-    output::write_json(&args.output.join("validate.json"), &report)?;
-    if let Some(path) = &args.json {
-        output::write_json(path, &report)?;
-    }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        output::print(&case_table(&report))?;
-    }
+    let mut files = FileSet::new();
+    files.folder(&args.output)?;
+    output::add_json(&mut files, &args.output.join("validate.json"), &report)?;
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &report, || case_table(&report))?;
+    output::finish(files, &shown)?;
     let wrong = report.totals.native_wrong() + arbiter_wrong(&report);
     Ok(if wrong > 0 { Outcome::NativeWrong } else { Outcome::Right })
 }

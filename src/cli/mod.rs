@@ -14,6 +14,8 @@ mod progress;
 mod render;
 mod replay;
 mod reproduce;
+#[cfg(unix)]
+mod signals;
 mod testers;
 mod validate;
 mod view;
@@ -59,6 +61,8 @@ enum Outcome {
 pub fn run() -> ExitCode {
     // Usage errors exit with 2 here, help and version with 0.
     let cli = Cli::parse();
+    #[cfg(unix)]
+    signals::watch();
     let outcome = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Validate(args) => validate::run(&args),
@@ -71,7 +75,7 @@ pub fn run() -> ExitCode {
         Ok(Outcome::Right) => ExitCode::SUCCESS,
         Ok(Outcome::NativeWrong) => ExitCode::from(1),
         Err(error) => {
-            eprintln!("lightbuffer: {error}");
+            progress::print_error(&format!("lightbuffer: {error}\n"));
             ExitCode::from(2)
         }
     }

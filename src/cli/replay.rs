@@ -5,6 +5,7 @@ use super::progress::Messages;
 use super::view::{LookRules, Seen, View};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
+use crate::film::FileSet;
 use crate::report::replay::{
     LightFacts, MeetingFacts, PrimitiveFacts, RayFacts, Replay, Status, TracedFacts,
 };
@@ -15,7 +16,7 @@ use crate::shadow::{Basis, REGISTRY};
 use crate::verdict::Cause;
 use crate::visibility::SurfacePoint;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -49,6 +50,7 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
         rig: args.rig,
     };
     let view = View::load(&args.view, &lights, messages)?;
+    output::expect_apart(args.json.as_slice(), &view.files)?;
     let light =
         choose_light(&view.scene.lights, args.lights.iter().filter_map(LightArgument::name).next_back())?;
     let seen = view.look(LookRules::usual(1), args.run.memory_limit())?;
@@ -58,12 +60,9 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
         return Err(Error::Usage(format!("--pixel {x},{y}: the image is {}x{}", size.width, size.height)));
     }
     let document = document(args, &view, &seen, light)?;
-    if let Some(path) = &args.json {
-        output::write_json(path, &document)?;
-    }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        output::print(&document.text())?;
-    }
+    let mut files = FileSet::new();
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &document, || document.text())?;
+    output::finish(files, &shown)?;
     let is_exact = |name: &str| REGISTRY.iter().any(|e| e.name == name && e.basis == Basis::Exact);
     let wrong =
         document.testers.iter().any(|(name, &answer)| is_exact(name) && Some(answer) != document.truth);

@@ -4,6 +4,7 @@ use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::memory::MemoryLimit;
+use crate::scene::formats::SceneFiles;
 use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
 use crate::shading::{RayForest, ShadedPoint, TreeRules};
 use crate::shadow::REGISTRY;
@@ -21,6 +22,8 @@ pub struct View {
     pub camera: Camera,
     /// Of the image: what the options say, else the camera, else [`USUAL_SIZE`].
     pub size: ImageSize,
+    /// What it was read from.
+    pub files: SceneFiles,
     /// What was added to the scene to make it visible.
     pub added: Vec<String>,
 }
@@ -31,7 +34,7 @@ impl View {
     /// # Errors
     /// Whatever the loader finds, an unknown camera, or any warning under `--strict`.
     pub fn load(options: &ViewOptions, lights: &LightOptions, messages: Messages) -> Result<View> {
-        let mut scene = formats::load(&options.scene)?;
+        let (mut scene, files) = formats::load_with_files(&options.scene)?;
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
         }
@@ -50,7 +53,7 @@ impl View {
         let camera = choose_camera(&scene, options.camera.as_deref())?;
         let size = options.size.or(camera.size).unwrap_or(USUAL_SIZE);
         let (camera, size) = if options.corner_rays { camera.through_corners(size) } else { (camera, size) };
-        Ok(View { scene, camera, size, added })
+        Ok(View { scene, camera, size, files, added })
     }
 
     /// Takes so many samples a pixel along each side.

@@ -22,7 +22,7 @@ pub use save::save;
 
 use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`,
 /// `.nff` or `.toml`. `builtin:NAME` is no file but the scene of that name in
@@ -57,6 +57,28 @@ pub fn load(path: &Path) -> Result<Scene> {
         return Err(Error::input(path, Place::File, why));
     }
     Ok(scene)
+}
+
+/// The files that a scene was read from: its own, and those that it names.
+#[derive(Debug, Clone, Default)]
+pub struct SceneFiles(Vec<PathBuf>);
+
+impl SceneFiles {
+    /// Whether a file is one of them.
+    pub fn contain(&self, file: &Path) -> bool {
+        self.0.iter().any(|read| read == file)
+    }
+}
+
+/// The same as [`load`], and the files that were read for it.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with_files(path: &Path) -> Result<(Scene, SceneFiles)> {
+    confined::files_read();
+    let scene = load(path)?;
+    let canonical = |file: PathBuf| file.canonicalize().unwrap_or(file);
+    Ok((scene, SceneFiles(confined::files_read().into_iter().map(canonical).collect())))
 }
 
 /// What a name begins with that is of a built-in scene and not of a file.
