@@ -8,10 +8,11 @@ pub use destination::{Destination, folder_of};
 pub use traces::remove_for_good;
 
 use crate::error::{Error, Result};
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, ErrorKind, Seek};
 use std::path::{Path, PathBuf};
-use temporary::{AFFIXES, Temporary};
+use temporary::{AFFIXES, Temporary, Written};
 use traces::{Kind, Trace};
 
 /// Writes a file without a name or under a temporary one, in the folder of `path`, and gives it its name when
@@ -28,7 +29,7 @@ use traces::{Kind, Trace};
 pub fn write_atomically(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<()> {
     let mut files = FileSet::new();
     files.write(path, write)?;
-    files.complete()?.publish()
+    files.publish()
 }
 
 /// Files that are being written, and folders that are made for them. Dropped, it leaves nothing.
@@ -37,7 +38,12 @@ pub struct FileSet {
     // Dropped before the folders that they are in.
     staged: Vec<Staged>,
     folders: Folders,
+    names: BTreeSet<PathBuf>,
 }
+
+/// Files of a set that may stay open, and are waited for until the disk has them; a set of thousands of maps would
+/// run out of the one and take minutes for the other. Further ones have temporary names.
+const MOST_OPEN: usize = 64;
 
 #[derive(Debug)]
 struct Staged {
@@ -49,7 +55,7 @@ struct Staged {
 #[derive(Debug)]
 enum Content {
     /// Becomes this file.
-    File(Temporary, PathBuf),
+    File(Written, PathBuf),
     /// Is written into this device or pipe.
     Special(File, PathBuf),
 }
@@ -102,14 +108,17 @@ impl FileSet {
         let refused = |source| Error::io(path, "write", source);
         let content = match Destination::of(path).map_err(refused)? {
             Destination::File(to) => {
-                let taken =
-                    |staged: &Staged| matches!(&staged.content, Content::File(_, other) if *other == to);
-                if self.staged.iter().any(taken) {
+                if !self.names.insert(to.clone()) {
                     return Err(Error::Usage(format!("{}: two results have this name", path.display())));
                 }
-                let mut temporary = Temporary::within(folder_of(&to)).map_err(refused)?;
+                let folder = folder_of(&to);
+                let temporary = match self.staged.len() < MOST_OPEN {
+                    true => Temporary::within(folder),
+                    false => Temporary::named(folder),
+                };
+                let mut temporary = temporary.map_err(refused)?;
                 write(temporary.file()).map_err(refused)?;
-                Content::File(temporary, to)
+                Content::File(temporary.written().map_err(refused)?, to)
             }
             Destination::Special(to) => {
                 // Elsewhere first, because it cannot be sought in, and may have to wait for a reader.
@@ -122,44 +131,24 @@ impl FileSet {
         Ok(())
     }
 
-    /// Makes sure that all of it has reached the disk: some file systems say only now that it is full.
-    ///
-    /// # Errors
-    /// [`Error::Io`] with the file.
-    pub fn complete(mut self) -> Result<CompleteSet> {
-        for Staged { path, content } in &mut self.staged {
-            if let Content::File(temporary, _) = content {
-                temporary.file().sync_all().map_err(|source| Error::io(path, "write", source))?;
-            }
-        }
-        Ok(CompleteSet(self))
-    }
-}
-
-/// Files of which nothing is missing but their names.
-#[derive(Debug)]
-pub struct CompleteSet(FileSet);
-
-impl CompleteSet {
     /// Fills devices and pipes, and gives the others their names, which no signal comes between.
     ///
     /// # Errors
     /// [`Error::Io`] with the first file that the operating system refuses; names given by then stay.
-    pub fn publish(self) -> Result<()> {
-        let CompleteSet(mut files) = self;
-        for Staged { path, content } in &mut files.staged {
+    pub fn publish(mut self) -> Result<()> {
+        for Staged { path, content } in &mut self.staged {
             if let Content::Special(file, to) = content {
                 pour(file, to).map_err(|source| Error::io(path, "write", source))?;
             }
         }
-        // After `files`, so that it is given back before those are dropped, who take it themselves.
+        // Given back before the files are dropped, who take it themselves.
         let mut registry = traces::lock();
-        for Staged { path, content } in &mut files.staged {
-            if let Content::File(temporary, to) = content {
-                temporary.publish(to, &mut registry).map_err(|source| Error::io(path, "write", source))?;
+        for Staged { path, content } in &mut self.staged {
+            if let Content::File(written, to) = content {
+                written.publish(to, &mut registry).map_err(|source| Error::io(path, "write", source))?;
             }
         }
-        files.folders.0.iter().for_each(|folder| registry.settle(folder));
+        self.folders.0.iter().for_each(|folder| registry.settle(folder));
         Ok(())
     }
 }
@@ -232,5 +221,58 @@ mod tests {
         File::create(&plain).unwrap();
         let mode = |path: &Path| path.metadata().unwrap().permissions().mode();
         assert_eq!(mode(&ours), mode(&plain));
+    }
+
+    #[test]
+    fn a_set_appears_as_a_whole_and_takes_its_folders_along_when_it_fails() {
+        let folder = tempfile::tempdir().unwrap();
+        let deep = folder.path().join("a/b");
+        let mut files = FileSet::new();
+        files.folder(&deep).unwrap();
+        files.write(&deep.join("one"), |file| file.write_all(b"1")).unwrap();
+        assert_eq!(files.write(&deep.join("one"), |_| Ok(())).unwrap_err().to_string().lines().count(), 1);
+        files.write(&deep.join("two"), |_| Err(io::Error::other("no"))).unwrap_err();
+        drop(files);
+        assert!(names(folder.path()).is_empty());
+        let mut files = FileSet::new();
+        files.folder(&deep).unwrap();
+        // Beyond so many they have temporary names.
+        for i in 0..=MOST_OPEN {
+            files.write(&deep.join(i.to_string()), |file| file.write_all(b"text")).unwrap();
+        }
+        assert_eq!((names(&deep).len(), unfinished_in(&deep)), (1, 1));
+        files.publish().unwrap();
+        assert_eq!((names(&deep).len(), unfinished_in(&deep)), (MOST_OPEN + 1, 0));
+        assert!(deep.read_dir().unwrap().all(|file| std::fs::read(file.unwrap().path()).unwrap() == b"text"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_and_lead_to_the_result() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::create_dir(path("inner")).unwrap();
+        std::fs::write(path("inner/old"), "old").unwrap();
+        for (link, target) in [("to-old", "inner/old"), ("to-none", "inner/none"), ("circle", "circle")] {
+            symlink(target, path(link)).unwrap();
+        }
+        write_atomically(&path("to-old"), |file| file.write_all(b"new")).unwrap();
+        write_atomically(&path("to-none"), |file| file.write_all(b"new")).unwrap();
+        write_atomically(&path("circle"), |_| Ok(())).unwrap_err();
+        for name in ["inner/old", "inner/none"] {
+            assert_eq!(std::fs::read(path(name)).unwrap(), b"new");
+        }
+        assert!(path("to-old").is_symlink() && path("to-none").is_symlink());
+        assert_eq!(names(&path("inner")).len(), 2);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_are_written_into() {
+        write_atomically(Path::new("/dev/null"), |file| file.write_all(b"text")).unwrap();
+        assert!(!Path::new("/dev/null").is_file());
+        let full = write_atomically(Path::new("/dev/full"), |file| file.write_all(b"text")).unwrap_err();
+        assert!(full.to_string().starts_with("/dev/full: cannot write: No space left"), "{full}");
     }
 }

@@ -33,11 +33,8 @@ impl Temporary {
     }
 
     pub(super) fn named(folder: &Path) -> io::Result<Temporary> {
-        // The error of tempfile itself would name the temporary file, which means nothing to anybody.
-        let plain = |error: io::Error| io::Error::from(error.kind());
-        let (file, trace) = Trace::of(Kind::File, || {
-            Ok(builder().tempfile_in(folder).map_err(plain)?.keep().map_err(|error| error.error)?)
-        })?;
+        let make = || with_name(folder)?.keep().map_err(|error| error.error);
+        let (file, trace) = Trace::of(Kind::File, make)?;
         Ok(Temporary::Named(file, trace))
     }
 
@@ -50,6 +47,33 @@ impl Temporary {
         }
     }
 
+    /// Makes sure that it has reached the disk, for some file systems say only now that it is full.
+    ///
+    /// # Errors
+    /// If it has not.
+    pub fn written(self) -> io::Result<Written> {
+        match self {
+            #[cfg(target_os = "linux")]
+            Temporary::Unnamed(file) => {
+                file.sync_all()?;
+                Ok(Written::Unnamed(file))
+            }
+            Temporary::Named(_, trace) => Ok(Written::Named(trace)),
+        }
+    }
+}
+
+/// A complete file that has not its own name yet.
+#[derive(Debug)]
+pub enum Written {
+    /// It goes by itself.
+    #[cfg(target_os = "linux")]
+    Unnamed(File),
+    /// It goes with the trace.
+    Named(Trace),
+}
+
+impl Written {
     /// Gives it its name, in place of what has it now. Held, the registry keeps signals away meanwhile.
     ///
     /// # Errors
@@ -57,8 +81,8 @@ impl Temporary {
     pub fn publish(&mut self, to: &Path, registry: &mut Registry) -> io::Result<()> {
         match self {
             #[cfg(target_os = "linux")]
-            Temporary::Unnamed(file) => unnamed::publish(file, to),
-            Temporary::Named(_, trace) => {
+            Written::Unnamed(file) => unnamed::publish(file, to),
+            Written::Named(trace) => {
                 let Some(path) = trace.path(registry) else { return Ok(()) };
                 std::fs::rename(path, to)?;
                 registry.settle(trace);
@@ -74,18 +98,18 @@ pub const AFFIXES: [&str; 2] = [".lightbuffer-", ".part"];
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(AFFIXES[0]).suffix(AFFIXES[1]);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Temporary files are private by default; this one will be a result, so the umask decides.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
     builder
+}
+
+/// A file with a temporary name. It is opened here, because the error of tempfile itself would name it, which means
+/// nothing to anybody, and because tempfile makes private files: this one will be a result, so the umask decides.
+fn with_name(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    builder().make_in(folder, |path| File::options().read(true).write(true).create_new(true).open(path))
 }
 
 #[cfg(target_os = "linux")]
 mod unnamed {
-    use super::builder;
+    use super::{builder, with_name};
     use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, open};
     use rustix::io::Errno;
     use std::fs::File;
@@ -120,7 +144,7 @@ mod unnamed {
     }
 
     fn copy(file: &mut File, to: &Path) -> io::Result<()> {
-        let mut copy = builder().tempfile_in(to.parent().unwrap_or(Path::new(".")))?;
+        let mut copy = with_name(to.parent().unwrap_or(Path::new(".")))?;
         file.rewind()?;
         io::copy(file, &mut copy)?;
         copy.as_file().sync_all()?;

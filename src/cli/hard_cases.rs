@@ -35,12 +35,14 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         entry.name != shadow_buffer::ENTRY.name || args.testers.is_named(entry.name)
     };
     let entries: Vec<&'static TesterEntry> = entries.iter().filter(asked).copied().collect();
+    let memory = args.run.memory_limit();
     let (mut cases, mut all) = (Vec::new(), Vec::new());
     for case in hard_cases::all() {
         let situations = case.situations();
         let most = situations.iter().map(|situation| situation.points.len()).max().unwrap_or(0);
         let bars = Bars::new(messages, &format!("case {}", case.number), most as u64);
-        let inputs: &hard_cases::Inputs = &|scene, index, light| args.run.build_input(scene, index, light);
+        let inputs: &hard_cases::Inputs =
+            &|scene, index, light| args.run.build_input(scene, index, light, memory);
         let verdicts = judge_situations(&situations, &entries, inputs, &bars)?;
         bars.finish();
         cases.push(CaseReport::new(case, &verdicts));

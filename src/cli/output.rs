@@ -116,13 +116,12 @@ pub fn add_copy(
     Ok(text())
 }
 
-/// Ends a run: once all files are on the disk, standard output is written, and then they get their names. Whatever
-/// fails before that leaves what was there before.
+/// Ends a run: all files are on the disk, so standard output is written, and then they get their names. Whatever fails
+/// before that leaves what was there before.
 ///
 /// # Errors
 /// If something cannot be written.
 pub fn finish(files: FileSet, standard_output: &str) -> Result<()> {
-    let files = files.complete()?;
     print(standard_output)?;
     files.publish()
 }

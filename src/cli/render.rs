@@ -178,7 +178,10 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
             Some(file) if args.load_shadow_buffers.is_some() => BufferFile::Load(file),
             Some(file) => BufferFile::Save(file),
         };
-        let input = BuildInput { shadow_buffer_file, ..args.run.build_input(&view.scene, &index, position) };
+        let input = BuildInput {
+            shadow_buffer_file,
+            ..args.run.build_input(&view.scene, &index, position, seen.memory)
+        };
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = match tester {
             None => Shadow::Off,
@@ -191,7 +194,7 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         lights.push((queries, shadow));
     }
     write(args, &view, &seen, &lights, &entries, embree.as_ref())?;
-    folders.complete()?.publish()?;
+    folders.publish()?;
     if args.run.stats {
         let lights = view.scene.lights.iter().zip(&lights);
         let runs = lights.filter_map(|(light, (_, shadow))| Some((light.name.as_str(), shadow.run()?)));

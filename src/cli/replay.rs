@@ -6,6 +6,7 @@ use super::view::{LookRules, Seen, View};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
 use crate::film::FileSet;
+use crate::memory::MemoryLimit;
 use crate::report::replay::{
     LightFacts, MeetingFacts, PrimitiveFacts, RayFacts, Replay, Status, TracedFacts,
 };
@@ -108,7 +109,7 @@ fn document(args: &Args, view: &View, seen: &Seen, light: &Light) -> Result<Repl
         causes: BTreeMap::new(),
     };
     if let (Status::Query, Some(point)) = (replay.status, point) {
-        ask(&mut replay, args, view, light, &point)?;
+        ask(&mut replay, args, view, light, &point, seen.memory)?;
     }
     Ok(replay)
 }
@@ -125,10 +126,17 @@ fn status(queries: &Queries, node: u32) -> Status {
     .map_or(Status::Background, |(_, status)| status)
 }
 
-fn ask(replay: &mut Replay, args: &Args, view: &View, light: &Light, point: &SurfacePoint) -> Result<()> {
+fn ask(
+    replay: &mut Replay,
+    args: &Args,
+    view: &View,
+    light: &Light,
+    point: &SurfacePoint,
+    memory: MemoryLimit,
+) -> Result<()> {
     let scene = &view.scene;
     let index = args.run.index(scene);
-    let input = args.run.build_input(scene, &index, light.position());
+    let input = args.run.build_input(scene, &index, light.position(), memory);
     let arbiter = Arbiter::new(&input);
     let truth = arbiter.decide(point);
     let occluded = truth.occlusion == Occlusion::Occluded;

@@ -87,7 +87,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let limit = args.run.memory_limit();
     // A byte an answer until all testers of a light have been judged.
     let answers = view.size.pixels() as u64 * entries.len() as u64;
-    limit.check(format!("the answers of {} testers", entries.len()), answers)?;
+    let limit = limit.beside(format!("the answers of {} testers", entries.len()), answers)?;
     let seen = view.look(LookRules::usual(args.trees.depth), limit)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
@@ -109,7 +109,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     for light in &view.scene.lights {
         let position = light.position();
         let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
-        let input = args.run.build_input(&view.scene, &index, position);
+        let input = args.run.build_input(&view.scene, &index, position, seen.memory);
         let fitting = fitting(entries, position, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let mut verdict = judge(&input, &queries, &fitting, &bars)?;

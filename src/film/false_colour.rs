@@ -141,7 +141,7 @@ impl CategoryMap {
 pub fn write_false_colour(path: &Path, map: &CategoryMap) -> Result<()> {
     let mut files = FileSet::new();
     add_false_colour(&mut files, path, map)?;
-    files.complete()?.publish()
+    files.publish()
 }
 
 /// The same as one file of several that appear together.

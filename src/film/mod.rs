@@ -20,7 +20,7 @@ mod png;
 mod subdivision;
 mod tone;
 
-pub use crate::atomic::{CompleteSet, FileSet, write_atomically};
+pub use crate::atomic::{FileSet, write_atomically};
 pub use digits::grouped;
 pub use exr_reader::read_exr;
 pub use false_colour::{Category, CategoryMap, add_false_colour, write_false_colour};

@@ -45,7 +45,7 @@ const REC_709: Chromaticities = Chromaticities {
 pub fn write_exr(path: &Path, image: &ImagePlanes) -> Result<()> {
     let mut files = FileSet::new();
     add_exr(&mut files, path, image)?;
-    files.complete()?.publish()
+    files.publish()
 }
 
 /// The same as one file of several that appear together.

@@ -16,7 +16,7 @@ use std::path::Path;
 pub fn write_png_rgb(path: &Path, size: ImageSize, rgb: &[u8]) -> Result<()> {
     let mut files = FileSet::new();
     add_png_rgb(&mut files, path, size, rgb)?;
-    files.complete()?.publish()
+    files.publish()
 }
 
 /// The same as one file of several that appear together.

@@ -3,11 +3,17 @@
 mod embree_modes;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+#[cfg(unix)]
+mod full_disks;
 mod hard_cases;
 mod hostile;
 mod info;
+mod many_lights;
 mod masks;
+mod memory;
 mod outputs;
+#[cfg(unix)]
+mod places;
 #[path = "../formats/polygon_writers.rs"]
 mod polygon_writers;
 mod render;
@@ -16,6 +22,10 @@ mod reproduce;
 mod reproduce_t_buffer;
 mod same_scene;
 mod shadow_buffer;
+#[cfg(unix)]
+mod signals;
+#[cfg(unix)]
+mod streams;
 mod switches;
 mod trees;
 mod usage;

@@ -157,7 +157,7 @@ fn switched(args: &Args, files: &mut FileSet, figure: u32, native_wrong: &mut u6
         _ => (Appearance::FULL, Contender::ShadowBuffer(COARSE_ROWS)),
     };
     let stage = Stage::new(args, find("three-spheres")?.build(None)?, appearance)?;
-    let judged = judged(&stage.input(args), &stage.queries, &[contender])?;
+    let judged = judged(&stage.input(), &stage.queries, &[contender])?;
     let tester = &judged.testers[0];
     let mut picture = stage.draw(args, files, &format!("figure-{figure}"), contender, &tester.answers)?;
     let unlike = stage.unlike_classical();
@@ -179,7 +179,7 @@ fn figure_12(args: &Args, files: &mut FileSet, native_wrong: &mut u64) -> Result
         for objects in PICTURED_OBJECTS.into_iter().filter(|&objects| objects <= most) {
             let stage = Stage::new(args, kind.stacked(objects)?, Appearance::FULL)?;
             let contender = Contender::BruteForce;
-            let answers = answers_of(contender, &stage.input(args), &stage.queries)?;
+            let answers = answers_of(contender, &stage.input(), &stage.queries)?;
             let name = format!("figure-12-{}-{objects}", kind.name());
             let mut picture = stage.draw(args, files, &name, contender, &answers)?;
             let unlike = stage.unlike_classical();
@@ -197,7 +197,7 @@ fn figure_18(args: &Args, files: &mut FileSet, native_wrong: &mut u64) -> Result
     let stage = Stage::new(args, find("three-spheres")?.build(None)?, Appearance::FULL)?;
     let buffers = ROWS_OF_18.into_iter().map(Contender::ShadowBuffer);
     let contenders: Vec<Contender> = [Contender::BruteForce].into_iter().chain(buffers).collect();
-    let judged = judged(&stage.input(args), &stage.queries, &contenders)?;
+    let judged = judged(&stage.input(), &stage.queries, &contenders)?;
     *native_wrong += judged.testers[0].errors.wrong();
     let edges = stage.edges(&judged.truth);
     let mut pictures = Vec::new();

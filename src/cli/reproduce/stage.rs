@@ -71,11 +71,11 @@ impl Stage {
     }
 
     /// What testers of the light are built from.
-    pub fn input(&self, args: &Args) -> BuildInput<'_> {
+    pub fn input(&self) -> BuildInput<'_> {
         let scene = &self.view.scene;
         let embree = EmbreeSettings { threads: rayon::current_num_threads(), ..EmbreeSettings::default() };
         let usual = BuildInput::new(scene, &self.index, scene.lights[0].position());
-        BuildInput { memory: args.memory_limit(), embree, ..usual }
+        BuildInput { memory: self.seen.memory, embree, ..usual }
     }
 
     /// Pixels at which the classical tracer sees something else.

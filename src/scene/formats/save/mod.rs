@@ -38,7 +38,7 @@ pub fn save(scene: &Scene, path: &Path) -> Result<()> {
             let mut files = FileSet::new();
             pictures.write(path, &mut files)?;
             files.write(path, |file| file.write_all(text.as_bytes()))?;
-            files.complete()?.publish()
+            files.publish()
         }
         "nff" => {
             let text = nff::text(scene).map_err(refuse)?;
