@@ -1,7 +1,7 @@
 //! The command line: one file a command.
 //!
 //! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
-//! right, 1 done and a native answer is wrong, 2 usage or input error.
+//! right, 1 done and a native answer is wrong, 2 usage or input error. Signals: `signals.rs`.
 
 mod counts;
 mod generate;
@@ -32,7 +32,8 @@ struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done and right; 1 done, but an answer of a native tester is wrong; \
-                          2 usage or input error, nothing written.";
+                          2 usage or input error, or a result cannot be written: nothing is. A signal that ends a \
+                          run is what the process dies of, and leaves no file half written.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

@@ -11,6 +11,8 @@ mod info;
 mod many_lights;
 mod masks;
 mod memory;
+#[cfg(all(feature = "embree", target_os = "linux"))]
+mod missing_library;
 mod outputs;
 #[cfg(unix)]
 mod places;

@@ -10,11 +10,14 @@ fn scene() -> String {
     let mut text = String::from(
         "version = 1\nname = \"lights\"\n[[mesh]]\nname = \"both\"\n\
          vertices = [[-4, 0, -4], [4, 0, -4], [0, 0, 4], [-1, 1, -1], [1, 1, -1], [0, 1, 1]]\n\
-         faces = [[0, 1, 2], [3, 4, 5]]\n[[camera]]\nposition = [0, 5, 7]\nlook_at = [0, 0, 0]\n",
+         faces = [[0, 1, 2], [3, 4, 5]]\n[[camera]]\nposition = [0, 5, 7]\ntarget = [0, 0, 0]\n",
     );
     for i in 0..LIGHTS {
         let (x, z) = ((i % 100) as f32 * 0.1 - 5.0, (i / 100) as f32 * 0.1 - 5.0);
-        let _ = write!(text, "[[lights]]\ntype = \"point\"\nposition = [{x}, 4, {z}]\nintensity = 0.01\n");
+        let _ = write!(
+            text,
+            "[[light]]\nname = \"l{i}\"\ntype = \"point\"\nposition = [{x}, 4, {z}]\nintensity = [0.01, 0.01, 0.01]\n"
+        );
     }
     text
 }
