@@ -25,7 +25,11 @@ fn every_command_that_builds_is_refused_in_one_line() {
             arguments.push("-q");
         }
         let line = lightbuffer(&arguments).failed();
-        assert!(line.contains("an image of 16000x16000 pixels with a light would need about"), "{line}");
+        let whats = ["an image of 16000x16000 pixels with a light", "the answers of"];
+        assert!(
+            line.contains(" would need about ") && whats.iter().any(|what| line.contains(what)),
+            "{line}"
+        );
         assert!(line.ends_with(" and --memory-limit is 256 MiB"), "{line}");
     }
     let line = validate("builtin:kitchen", &folder.path("out"), &["--memory-limit", "100K"]).failed();
@@ -120,11 +124,13 @@ fn what_runs_stays_within_the_limit() {
 fn a_system_that_gives_less_leaves_no_half_file() {
     let folder = Folder::new();
     let picture = folder.write("p.exr", "old");
-    for mebibytes in [60, 120, 250, 400] {
+    for mebibytes in [60, 100, 150, 250] {
         let shell = format!(r#"ulimit -v {}; ulimit -c 0; exec "$0" "$@""#, mebibytes << 10);
         let output = Command::new("sh")
             .args(["-c", &shell, env!("CARGO_BIN_EXE_lightbuffer"), "render", "-q", BLOCKS, "--no-verdict"])
             .args(["-t", "1", "--size", "1024x576", "-o", picture.to_str().unwrap()])
+            // glibc would try to map another 128 MiB at each allocation of a thread, which takes minutes.
+            .env("MALLOC_ARENA_MAX", "1")
             .current_dir(env!("CARGO_MANIFEST_DIR"))
             .output()
             .unwrap();
