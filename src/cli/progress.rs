@@ -1,5 +1,6 @@
 //! Messages and progress on standard error.
 
+use crate::error::OneLine;
 use crate::verdict::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
@@ -23,7 +24,7 @@ impl Messages {
     /// Says something.
     pub fn say(self, text: &str) {
         if self == Messages::Shown {
-            print_error(&format!("lightbuffer: {text}\n"));
+            print_error(&format!("lightbuffer: {}\n", OneLine(text)));
         }
     }
 

@@ -49,7 +49,8 @@ fn a_folder_that_must_not_be_written_is_refused_before_the_work() {
         folder.write(&format!("{name}/old"), "old");
         set_mode(&folder.path(name), mode);
         let path = |file: &str| folder.path(name).join(file).to_str().unwrap().to_owned();
-        let (dir, below, picture, json) = (path(""), path("new/folder"), path("p.exr"), path("f.json"));
+        let (dir, below, picture) = (path(""), path("new/folder"), path("p.exr"));
+        let (json, scene) = (path("f.json"), path("s.toml"));
         let large = ["--size", "16000x16000", "--memory-limit", "999G"];
         let runs = [
             [&["validate", "builtin:kitchen", "-o", &dir][..], &large].concat(),
@@ -59,7 +60,7 @@ fn a_folder_that_must_not_be_written_is_refused_before_the_work() {
             vec!["info", "builtin:kitchen", "--json", &json],
             vec!["replay", "builtin:kitchen", "--pixel", "0,0", "--json", &json],
             vec!["reproduce", "haines-greenberg", "-o", &dir],
-            vec!["generate", "kitchen", "-o", &json.replace("json", "toml")],
+            vec!["generate", "kitchen", "-o", &scene],
         ];
         for arguments in runs {
             let line = unprivileged(&folder, &arguments).failed();
