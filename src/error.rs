@@ -31,7 +31,7 @@ pub(crate) fn breaks_line(character: char) -> bool {
 
 /// Text that stays on one line, whatever a path or a library's message brings along: characters that would
 /// break it are escaped.
-struct OneLine<T>(T);
+pub(crate) struct OneLine<T>(pub T);
 
 impl<T: fmt::Display> fmt::Display for OneLine<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -4,17 +4,20 @@
 use crate::error::{Error, Result};
 use std::fmt::Display;
 
-/// The most bytes that one thing may need.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct MemoryLimit(u64);
+/// The most bytes that a run may need, and how many of them are spoken for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MemoryLimit {
+    most: u64,
+    spoken_for: u64,
+}
 
 impl MemoryLimit {
     /// No limit but that of the machine.
-    pub const NONE: MemoryLimit = MemoryLimit(u64::MAX);
+    pub const NONE: MemoryLimit = MemoryLimit::bytes(u64::MAX);
 
     /// A limit in bytes.
     pub const fn bytes(bytes: u64) -> MemoryLimit {
-        MemoryLimit(bytes)
+        MemoryLimit { most: bytes, spoken_for: 0 }
     }
 
     /// What the machine has free, or the process's control group (version 2) allows, whichever is less; no
@@ -23,17 +26,32 @@ impl MemoryLimit {
         let free = std::fs::read_to_string("/proc/meminfo").ok().as_deref().and_then(available);
         let group = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok();
         let group = group.and_then(|text| text.trim().parse().ok());
-        free.into_iter().chain(group).min().map_or(MemoryLimit::NONE, MemoryLimit)
+        free.into_iter().chain(group).min().map_or(MemoryLimit::NONE, MemoryLimit::bytes)
     }
 
+    /// Whether something fits beside what is spoken for.
+    ///
     /// # Errors
-    /// [`Error::Usage`] if something needs more.
+    /// [`Error::Usage`] if it needs more.
     pub fn check(self, what: impl Display, needed: u64) -> Result<()> {
-        if needed <= self.0 {
+        if needed <= self.most.saturating_sub(self.spoken_for) {
             return Ok(());
         }
-        let (needed, limit) = (in_words(needed), in_words(self.0));
-        Err(Error::Usage(format!("{what} would need about {needed}, and --memory-limit is {limit}")))
+        let beside = match self.spoken_for {
+            0 => String::new(),
+            bytes => format!(" beside {} for the rest", in_words(bytes)),
+        };
+        let (needed, limit) = (in_words(needed), in_words(self.most));
+        Err(Error::Usage(format!("{what} would need about {needed}{beside}, and --memory-limit is {limit}")))
+    }
+
+    /// The limit for everything else once something that fits is there.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if it needs more.
+    pub fn beside(self, what: impl Display, needed: u64) -> Result<MemoryLimit> {
+        self.check(what, needed)?;
+        Ok(MemoryLimit { spoken_for: self.spoken_for.saturating_add(needed), ..self })
     }
 }
 
@@ -56,7 +74,9 @@ pub fn parse(text: &str) -> std::result::Result<MemoryLimit, String> {
         None => (text, 0),
     };
     let bytes = digits.parse::<u64>().ok().and_then(|n| n.checked_mul(1 << shift)).filter(|&n| n > 0);
-    bytes.map(MemoryLimit).ok_or_else(|| "expected bytes, or a number with K, M, G or T, such as 16G".into())
+    bytes
+        .map(MemoryLimit::bytes)
+        .ok_or_else(|| "expected bytes, or a number with K, M, G or T, such as 16G".into())
 }
 
 fn in_words(bytes: u64) -> String {
@@ -73,9 +93,9 @@ mod tests {
 
     #[test]
     fn sizes_are_read_in_powers_of_1024() {
-        assert_eq!(parse("4096"), Ok(MemoryLimit(4096)));
-        assert_eq!(parse("3k"), Ok(MemoryLimit(3072)));
-        assert_eq!(parse("16G"), Ok(MemoryLimit(16 << 30)));
+        assert_eq!(parse("4096"), Ok(MemoryLimit::bytes(4096)));
+        assert_eq!(parse("3k"), Ok(MemoryLimit::bytes(3072)));
+        assert_eq!(parse("16G"), Ok(MemoryLimit::bytes(16 << 30)));
         for bad in ["", "G", "0", "-1", "1.5G", "4GB", "99999999999T", "é"] {
             assert!(parse(bad).is_err(), "{bad}");
         }
@@ -94,5 +114,13 @@ mod tests {
         assert!(limit.check("a thing", 1 << 20).is_ok());
         let line = limit.check("a thing", 3 << 30).unwrap_err().to_string();
         assert_eq!(line, "a thing would need about 3072 MiB, and --memory-limit is 1024 KiB");
+        let rest = limit.beside("a thing", 1 << 19).unwrap();
+        assert!(rest.check("another", 1 << 19).is_ok());
+        let line = rest.beside("another", (1 << 19) + 1).unwrap_err().to_string();
+        assert_eq!(
+            line,
+            "another would need about 513 KiB beside 512 KiB for the rest, and --memory-limit is 1024 KiB"
+        );
+        assert!(MemoryLimit::NONE.beside("all", u64::MAX).is_ok());
     }
 }

@@ -4,7 +4,7 @@ use super::options::thread_pool;
 use super::progress::Messages;
 use super::{Outcome, output};
 use crate::error::Result;
-use crate::film::grouped;
+use crate::film::{FileSet, grouped};
 use crate::hard_cases::differential::{Answer, Counts, Finding, Judge, Plan, search};
 use crate::report::differential::FuzzReport;
 use crate::shadow::{REGISTRY, TesterEntry, shadow_buffer};
@@ -87,16 +87,15 @@ fn fuzz(args: &Args, entries: &[&'static TesterEntry]) -> Result<Outcome> {
     let found = search(&plan, entries, &progress)?;
     let seconds = start.elapsed().as_secs_f64();
     if !found.findings.is_empty() {
-        output::folder(&args.output)?;
+        let mut folder = FileSet::new();
+        folder.folder(&args.output)?;
+        folder.publish()?;
     }
     let saved = found.findings.iter().map(|finding| finding.save(&args.output));
     let report = FuzzReport::new(&plan, &found, seconds, saved.collect::<Result<_>>()?);
-    if let Some(path) = &args.json {
-        output::write_json(path, &report)?;
-    }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        output::print(&report.table())?;
-    }
+    let mut files = FileSet::new();
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &report, || report.table())?;
+    output::finish(files, &shown)?;
     for (path, finding) in report.findings.iter().zip(&found.findings) {
         let primitives = finding.recipe.primitives();
         messages.say(&format!("{}: {primitives} primitives", path.display()));

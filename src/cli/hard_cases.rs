@@ -4,13 +4,16 @@ use super::progress::{Bars, Messages};
 use super::validate::{Args, embree_facts};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
+use crate::film::FileSet;
 use crate::hard_cases::{self, judge_situations};
+use crate::report::hard_case_picture::{most_telling, picture};
 use crate::report::hard_cases::{CaseReport, arbiter_wrong, case_table, reports};
 use crate::report::validation::{Totals, Validation};
 use crate::scene::formats::BUILTIN_PREFIX;
 use crate::scene::procedural::HARD_CASES;
 use crate::shading::USUAL_DEPTH;
 use crate::shadow::{TesterEntry, shadow_buffer};
+use std::io::Write;
 use std::path::Path;
 
 /// Whether this is their name.
@@ -26,6 +29,7 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         )));
     }
     output::expect_folder(&args.output)?;
+    output::warn_of_remains(&args.output, messages);
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let threads = rayon::current_num_threads();
     // It compares all that lies at one distance in each of its cells, and 10,000 duplicates would take hours.
@@ -33,14 +37,18 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         entry.name != shadow_buffer::ENTRY.name || args.testers.is_named(entry.name)
     };
     let entries: Vec<&'static TesterEntry> = entries.iter().filter(asked).copied().collect();
-    let (mut cases, mut all) = (Vec::new(), Vec::new());
+    let memory = args.run.memory_limit();
+    let (mut cases, mut all, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
     for case in hard_cases::all() {
         let situations = case.situations();
         let most = situations.iter().map(|situation| situation.points.len()).max().unwrap_or(0);
         let bars = Bars::new(messages, &format!("case {}", case.number), most as u64);
-        let inputs: &hard_cases::Inputs = &|scene, index, light| args.run.build_input(scene, index, light);
+        let inputs: &hard_cases::Inputs =
+            &|scene, index, light| args.run.build_input(scene, index, light, memory);
         let verdicts = judge_situations(&situations, &entries, inputs, &bars)?;
         bars.finish();
+        let shown = most_telling(&verdicts);
+        pictures.push((case.number, picture(case, &situations[shown], &verdicts[shown])?));
         cases.push(CaseReport::new(case, &verdicts));
         all.extend(reports(&verdicts));
     }
@@ -57,14 +65,16 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
         cases,
         totals: Totals::of(&all),
     };
-    output::folder(&args.output)?;
-    output::write_json(&args.output.join("validate.json"), &report)?;
-    if let Some(path) = &args.json {
-        output::write_json(path, &report)?;
+    let mut files = FileSet::new();
+    files.folder(&args.output)?;
+    for (number, svg) in pictures {
+        files.write(&args.output.join(format!("case-{number:02}.svg")), |file| {
+            file.write_all(svg.as_bytes())
+        })?;
     }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        output::print(&case_table(&report))?;
-    }
+    output::add_json(&mut files, &args.output.join("validate.json"), &report)?;
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &report, || case_table(&report))?;
+    output::finish(files, &shown)?;
     let wrong = report.totals.native_wrong() + arbiter_wrong(&report);
     Ok(if wrong > 0 { Outcome::NativeWrong } else { Outcome::Right })
 }

@@ -6,7 +6,7 @@ use super::progress::Messages;
 use super::view::View;
 use super::{Outcome, output};
 use crate::error::Result;
-use crate::film::grouped;
+use crate::film::{FileSet, grouped};
 use crate::geometry::LightPosition;
 use crate::geometry::convexity::Surface;
 use crate::geometry::solid::Refusal;
@@ -87,15 +87,14 @@ struct ConeFacts {
 }
 
 pub fn run(args: &Args) -> Result<Outcome> {
+    args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view =
         View::load(&args.view, &args.lights, MemoryLimit::of_this_machine(), Messages::new(args.quiet))?;
+    output::expect_apart(args.json.as_slice(), &view.files)?;
     let facts = facts(&view);
-    if let Some(path) = &args.json {
-        output::write_json(path, &facts)?;
-    }
-    if args.json.as_deref() != Some(std::path::Path::new("-")) {
-        output::print(&text(&facts))?;
-    }
+    let mut files = FileSet::new();
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &facts, || text(&facts))?;
+    output::finish(files, &shown)?;
     Ok(Outcome::Right)
 }
 

@@ -1,7 +1,7 @@
 //! The command line: one file a command.
 //!
 //! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
-//! right, 1 done and a native answer is wrong, 2 usage or input error.
+//! right, 1 done and a native answer is wrong, 2 usage or input error. Signals: `signals.rs`.
 
 mod counts;
 mod fuzz;
@@ -15,6 +15,8 @@ mod progress;
 mod render;
 mod replay;
 mod reproduce;
+#[cfg(unix)]
+mod signals;
 mod testers;
 mod validate;
 mod view;
@@ -31,7 +33,8 @@ struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done and right; 1 done, but an answer of a native tester is wrong; \
-                          2 usage or input error, nothing written.";
+                          2 usage or input error, or a result cannot be written: nothing is. A signal that ends a \
+                          run is what the process dies of, and leaves no file half written.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -62,6 +65,8 @@ enum Outcome {
 pub fn run() -> ExitCode {
     // Usage errors exit with 2 here, help and version with 0.
     let cli = Cli::parse();
+    #[cfg(unix)]
+    signals::watch();
     let outcome = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Validate(args) => validate::run(&args),
@@ -75,7 +80,7 @@ pub fn run() -> ExitCode {
         Ok(Outcome::Right) => ExitCode::SUCCESS,
         Ok(Outcome::NativeWrong) => ExitCode::from(1),
         Err(error) => {
-            eprintln!("lightbuffer: {error}");
+            progress::print_error(&format!("lightbuffer: {error}\n"));
             ExitCode::from(2)
         }
     }

@@ -207,7 +207,8 @@ pub struct RunOptions {
     /// Threads [default: all]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// The most memory that the scene, the image or a tester may need, such as 16G [default: what the machine has free]
+    /// The most memory that the run may need beside some 64 MiB, such as 16G; what would need more is refused before
+    /// it is asked for [default: what the machine has free]
     #[arg(long, value_name = "BYTES", value_parser = memory::parse)]
     pub memory_limit: Option<MemoryLimit>,
     /// Brighten PNG previews by this many stops
@@ -233,12 +234,13 @@ impl RunOptions {
         index
     }
 
-    /// What testers of one light are built from, for the surfaces that a camera sees.
+    /// What testers of one light are built from, for the surfaces that a camera sees, within what memory is left.
     pub fn build_input<'a>(
         &self,
         scene: &'a Scene,
         index: &'a SceneIndex,
         light: LightPosition,
+        memory: MemoryLimit,
     ) -> BuildInput<'a> {
         BuildInput {
             resolution: self.resolution,
@@ -251,7 +253,7 @@ impl RunOptions {
             bounding_volumes: self.volume_threshold.map_or(VolumeThreshold::Off, VolumeThreshold::MoreThan),
             shadow_buffer: self.shadow_buffer(),
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
-            memory: self.memory_limit(),
+            memory,
             ..BuildInput::new(scene, index, light)
         }
     }

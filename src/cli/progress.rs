@@ -1,8 +1,9 @@
 //! Messages and progress on standard error.
 
+use crate::error::OneLine;
 use crate::verdict::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 
 /// Lines for the person at the terminal.
@@ -23,7 +24,7 @@ impl Messages {
     /// Says something.
     pub fn say(self, text: &str) {
         if self == Messages::Shown {
-            eprintln!("lightbuffer: {text}");
+            print_error(&format!("lightbuffer: {}\n", OneLine(text)));
         }
     }
 
@@ -31,6 +32,11 @@ impl Messages {
     pub fn warn(self, text: &str) {
         self.say(&format!("warning: {text}"));
     }
+}
+
+/// Writes to standard error. That nobody reads it is no reason to stop, and there is nowhere to say so.
+pub fn print_error(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// A bar a tester on a terminal; nothing elsewhere.

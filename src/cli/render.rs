@@ -2,12 +2,13 @@
 
 use super::options::{LightOptions, RunOptions, Shadows, Switches, TreeOptions, ViewOptions};
 use super::picture::Lighting;
-use super::progress::{Bars, Messages};
+use super::progress::{Bars, Messages, print_error};
 use super::testers::{expect_available, expect_lights};
 use super::view::{Seen, View};
 use super::{Outcome, output, picture, validate};
+use crate::atomic::folder_of;
 use crate::error::{Error, Result};
-use crate::film::{subdivided, unique_safe_names, write_exr};
+use crate::film::{FileSet, add_exr, subdivided, unique_safe_names};
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
 use crate::scene::Light;
@@ -98,6 +99,11 @@ impl Args {
         self.no_verdict || self.subdivide > 1 || self.switches.shadows() == Shadows::Off
     }
 
+    /// The PNG beside the picture.
+    fn preview(&self) -> PathBuf {
+        self.output.with_extension("png")
+    }
+
     /// Whose shadows the picture has.
     fn tester(&self) -> Option<&str> {
         (self.switches.shadows() == Shadows::On).then_some(self.shadow.as_str())
@@ -138,8 +144,12 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         args.expect_shadow_buffer(tester)?;
     }
     output::expect_writable(&args.output)?;
+    output::expect_writable(&args.preview())?;
+    output::warn_of_remains(folder_of(&args.output), messages);
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let mut view = View::load(&args.view, &args.lights, args.run.memory_limit(), messages)?;
+    let results = [args.output.clone(), args.preview()].into_iter().chain(args.json.clone());
+    output::expect_apart(&results.collect::<Vec<_>>(), &view.files)?;
     tester.map_or(Ok(()), |tester| expect_lights(tester, &view.scene.lights))?;
     view.subdivide(args.subdivide)?;
     let seen = view.look(args.switches.look(args.trees.depth), args.run.memory_limit())?;
@@ -155,8 +165,9 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         entries.push(find("embree")?);
     }
     let mut lights = Vec::new();
+    let mut folders = FileSet::new();
     if let Some(folder) = &args.save_shadow_buffers {
-        output::folder(folder)?;
+        folders.folder(folder)?;
     }
     let files = args.shadow_buffer_files(&view.scene.lights);
     for (light, file) in view.scene.lights.iter().zip(&files) {
@@ -167,7 +178,10 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
             Some(file) if args.load_shadow_buffers.is_some() => BufferFile::Load(file),
             Some(file) => BufferFile::Save(file),
         };
-        let input = BuildInput { shadow_buffer_file, ..args.run.build_input(&view.scene, &index, position) };
+        let input = BuildInput {
+            shadow_buffer_file,
+            ..args.run.build_input(&view.scene, &index, position, seen.memory)
+        };
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let shadow = match tester {
             None => Shadow::Off,
@@ -180,10 +194,11 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         lights.push((queries, shadow));
     }
     write(args, &view, &seen, &lights, &entries, embree.as_ref())?;
+    folders.publish()?;
     if args.run.stats {
         let lights = view.scene.lights.iter().zip(&lights);
         let runs = lights.filter_map(|(light, (_, shadow))| Some((light.name.as_str(), shadow.run()?)));
-        eprint!("{}", statistics(&seen.hits, &seen.forest.statistics, runs));
+        print_error(&statistics(&seen.hits, &seen.forest.statistics, runs));
     }
     messages.say(&format!("wrote {}", args.output.display()));
     let wrong = lights.iter().any(|(_, shadow)| shadow.is_native_wrong());
@@ -249,14 +264,10 @@ fn write(
     let left_out = args.switches.left_out();
     picture::add_left_out(&mut planes, &left_out)?;
     let planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
-    write_exr(&args.output, &planes)?;
-    output::write_preview(
-        &args.output.with_extension("png"),
-        &planes,
-        view.scene.background,
-        args.run.exposure,
-    )?;
-    let Some(path) = &args.json else { return Ok(()) };
+    let mut files = FileSet::new();
+    add_exr(&mut files, &args.output, &planes)?;
+    let background = view.scene.background;
+    output::add_preview(&mut files, &args.preview(), &planes, background, args.run.exposure)?;
     let light_facts = |(light, (queries, shadow)): (&Light, &(Queries, Shadow))| LightFacts {
         name: light.name.clone(),
         queries: shadow.run().map_or(0, |run| run.occluded.len() as u64),
@@ -277,5 +288,6 @@ fn write(
         left_out,
         lights: view.scene.lights.iter().zip(lights).map(light_facts).collect(),
     };
-    output::write_json(path, &facts)
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &facts, String::new)?;
+    output::finish(files, &shown)
 }

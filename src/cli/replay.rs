@@ -5,6 +5,8 @@ use super::progress::Messages;
 use super::view::{LookRules, Seen, View};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
+use crate::film::FileSet;
+use crate::memory::MemoryLimit;
 use crate::report::replay::{
     LightFacts, MeetingFacts, PrimitiveFacts, RayFacts, Replay, Status, TracedFacts,
 };
@@ -15,7 +17,7 @@ use crate::shadow::{Basis, REGISTRY};
 use crate::verdict::Cause;
 use crate::visibility::SurfacePoint;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -49,6 +51,7 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
         rig: args.rig,
     };
     let view = View::load(&args.view, &lights, args.run.memory_limit(), messages)?;
+    output::expect_apart(args.json.as_slice(), &view.files)?;
     let light =
         choose_light(&view.scene.lights, args.lights.iter().filter_map(LightArgument::name).next_back())?;
     let seen = view.look(LookRules::usual(1), args.run.memory_limit())?;
@@ -58,12 +61,9 @@ fn replay(args: &Args, messages: Messages) -> Result<Outcome> {
         return Err(Error::Usage(format!("--pixel {x},{y}: the image is {}x{}", size.width, size.height)));
     }
     let document = document(args, &view, &seen, light)?;
-    if let Some(path) = &args.json {
-        output::write_json(path, &document)?;
-    }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        output::print(&document.text())?;
-    }
+    let mut files = FileSet::new();
+    let shown = output::add_copy(&mut files, args.json.as_deref(), &document, || document.text())?;
+    output::finish(files, &shown)?;
     let is_exact = |name: &str| REGISTRY.iter().any(|e| e.name == name && e.basis == Basis::Exact);
     let wrong =
         document.testers.iter().any(|(name, &answer)| is_exact(name) && Some(answer) != document.truth);
@@ -109,7 +109,7 @@ fn document(args: &Args, view: &View, seen: &Seen, light: &Light) -> Result<Repl
         causes: BTreeMap::new(),
     };
     if let (Status::Query, Some(point)) = (replay.status, point) {
-        ask(&mut replay, args, view, light, &point)?;
+        ask(&mut replay, args, view, light, &point, seen.memory)?;
     }
     Ok(replay)
 }
@@ -126,10 +126,17 @@ fn status(queries: &Queries, node: u32) -> Status {
     .map_or(Status::Background, |(_, status)| status)
 }
 
-fn ask(replay: &mut Replay, args: &Args, view: &View, light: &Light, point: &SurfacePoint) -> Result<()> {
+fn ask(
+    replay: &mut Replay,
+    args: &Args,
+    view: &View,
+    light: &Light,
+    point: &SurfacePoint,
+    memory: MemoryLimit,
+) -> Result<()> {
     let scene = &view.scene;
     let index = args.run.index(scene);
-    let input = args.run.build_input(scene, &index, light.position());
+    let input = args.run.build_input(scene, &index, light.position(), memory);
     let arbiter = Arbiter::new(&input);
     let truth = arbiter.decide(point);
     let occluded = truth.occlusion == Occlusion::Occluded;

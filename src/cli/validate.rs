@@ -3,12 +3,12 @@
 use super::Outcome;
 use super::hard_cases;
 use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
-use super::progress::{Bars, Messages};
+use super::progress::{Bars, Messages, print_error};
 use super::testers::{TesterOptions, expect_lights};
 use super::view::{LookRules, Seen, View};
 use super::{output, picture};
 use crate::error::Result;
-use crate::film::{unique_safe_names, write_exr, write_false_colour};
+use crate::film::{FileSet, add_exr, add_false_colour, unique_safe_names};
 use crate::geometry::LightPosition;
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Skipped, Totals, Validation, WhySkipped};
@@ -16,7 +16,7 @@ use crate::shading::Textures;
 use crate::shadow::Queries;
 use crate::shadow::{BuildInput, SceneIndex, TesterEntry, testers};
 use crate::verdict::{EpsilonCounts, LightVerdict, Progress, check_arbiter, judge, sweep_epsilon};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Testers that would need more tests than this are skipped by name.
 const MOST_TESTS: f64 = 2e11;
@@ -48,6 +48,17 @@ pub struct Args {
     pub(super) run: RunOptions,
 }
 
+impl Args {
+    /// All files that may be written, for lights of these names.
+    fn results(&self, lights: &[String]) -> Vec<PathBuf> {
+        let maps = lights
+            .iter()
+            .flat_map(|light| ["difference", "verdict"].map(|kind| format!("{light}.{kind}.png")));
+        let names = ["image.exr", "image.png", "validate.json"].map(str::to_owned).into_iter().chain(maps);
+        names.map(|name| self.output.join(name)).chain(self.json.clone()).collect()
+    }
+}
+
 /// The channels of image.exr, for `--help`.
 pub const CHANNELS: &str = "\
 Channels of the OpenEXR file beside R G B A, Z, P.*, N.*, albedo.* and id.object, for each light:
@@ -71,6 +82,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -> Result<Outcome> {
     output::expect_folder(&args.output)?;
+    output::warn_of_remains(&args.output, messages);
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, args.run.memory_limit(), messages)?;
     for entry in entries.iter().filter(|entry| args.testers.is_named(entry.name)) {
@@ -79,11 +91,12 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let limit = args.run.memory_limit();
     // A byte an answer until all testers of a light have been judged.
     let answers = view.size.pixels() as u64 * entries.len() as u64;
-    limit.check(format!("the answers of {} testers", entries.len()), answers)?;
+    let limit = limit.beside(format!("the answers of {} testers", entries.len()), answers)?;
     let seen = view.look(LookRules::usual(args.trees.depth), limit)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
+    output::expect_apart(&args.results(&names), &view.files)?;
     let mut report = Validation {
         scene: view.scene.name.clone(),
         width: view.size.width,
@@ -101,7 +114,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     for light in &view.scene.lights {
         let position = light.position();
         let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
-        let input = args.run.build_input(&view.scene, &index, position);
+        let input = args.run.build_input(&view.scene, &index, position, seen.memory);
         let fitting = fitting(entries, position, &index, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let mut verdict = judge(&input, &queries, &fitting, &bars)?;
@@ -135,7 +148,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let runs = view.scene.lights.iter().zip(&judged).flat_map(|(light, (_, verdict))| {
             verdict.testers.iter().map(|tester| (light.name.as_str(), &tester.run))
         });
-        eprint!("{}", statistics(&seen.hits, &seen.forest.statistics, runs));
+        print_error(&statistics(&seen.hits, &seen.forest.statistics, runs));
     }
     let arbiter_wrong = report.lights.iter().filter_map(|l| l.arbiter_check).any(|c| c.wrong > 0);
     Ok(if report.totals.native_wrong() > 0 || arbiter_wrong { Outcome::NativeWrong } else { Outcome::Right })
@@ -218,12 +231,13 @@ fn write_all(
     let runs = picture::runs_of(judged, &args.testers.shadow)?;
     let lighting: Vec<_> = runs.iter().map(|&(queries, run)| (queries, run.into())).collect();
     let mut planes = picture::shaded(view, seen, &lighting, Textures::On)?;
-    output::folder(&args.output)?;
+    let mut files = FileSet::new();
+    files.folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
     for (name, (queries, verdict)) in names.iter().zip(judged) {
         let visible = &seen.forest.nodes;
         for map in picture::add_light(&mut planes, name, visible, queries, verdict, &args.testers.shadow)? {
-            write_false_colour(&file(&format!("{name}.{}.png", map.kind)), &map.colours)?;
+            add_false_colour(&mut files, &file(&format!("{name}.{}.png", map.kind)), &map.colours)?;
         }
     }
     // One that is skipped at some lights has channels of the others.
@@ -232,14 +246,9 @@ fn write_all(
     let settings = args.run.shadow_buffer();
     let (tester, embree) = (Some(args.testers.shadow.as_str()), report.embree.as_ref());
     picture::add_attributes(&mut planes, view, &testers, tester, embree, &settings)?;
-    write_exr(&file("image.exr"), &planes)?;
-    output::write_preview(&file("image.png"), &planes, view.scene.background, args.run.exposure)?;
-    output::write_json(&file("validate.json"), report)?;
-    if let Some(path) = &args.json {
-        output::write_json(path, report)?;
-    }
-    if args.json.as_deref() == Some(Path::new("-")) {
-        return Ok(());
-    }
-    output::print(&verdict_table(report))
+    add_exr(&mut files, &file("image.exr"), &planes)?;
+    output::add_preview(&mut files, &file("image.png"), &planes, view.scene.background, args.run.exposure)?;
+    output::add_json(&mut files, &file("validate.json"), report)?;
+    let shown = output::add_copy(&mut files, args.json.as_deref(), report, || verdict_table(report))?;
+    output::finish(files, &shown)
 }

@@ -3,7 +3,9 @@
 use super::options::{LightOptions, ViewOptions};
 use super::progress::Messages;
 use crate::error::{Error, Place, Result};
+use crate::film::grouped;
 use crate::memory::MemoryLimit;
+use crate::scene::formats::SceneFiles;
 use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
 use crate::shading::{RayForest, ShadedPoint, TreeRules};
 use crate::shadow::REGISTRY;
@@ -21,6 +23,8 @@ pub struct View {
     pub camera: Camera,
     /// Of the image: what the options say, else the camera, else [`USUAL_SIZE`].
     pub size: ImageSize,
+    /// What it was read from.
+    pub files: SceneFiles,
     /// What was added to the scene to make it visible.
     pub added: Vec<String>,
 }
@@ -36,7 +40,7 @@ impl View {
         limit: MemoryLimit,
         messages: Messages,
     ) -> Result<View> {
-        let mut scene = formats::load_within(&options.scene, limit)?;
+        let (mut scene, files) = formats::load_with_files(&options.scene, limit)?;
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
         }
@@ -55,7 +59,7 @@ impl View {
         let camera = choose_camera(&scene, options.camera.as_deref())?;
         let size = options.size.or(camera.size).unwrap_or(USUAL_SIZE);
         let (camera, size) = if options.corner_rays { camera.through_corners(size) } else { (camera, size) };
-        Ok(View { scene, camera, size, added })
+        Ok(View { scene, camera, size, files, added })
     }
 
     /// Takes so many samples a pixel along each side.
@@ -72,33 +76,51 @@ impl View {
     /// First hits, and the ray trees behind them.
     ///
     /// # Errors
-    /// If the image with the masks of all lights would need more memory than the limit.
+    /// If the scene, the image with the masks of all lights, or the trees would need more memory than the limit.
     pub fn look(&self, rules: LookRules, limit: MemoryLimit) -> Result<Seen> {
         let lights = self.scene.lights.len() as u64;
-        let what = format!(
-            "an image of {}x{} pixels with {}",
-            self.size.width,
-            self.size.height,
-            if lights == 1 { "a light".into() } else { format!("{lights} lights") }
-        );
-        limit.check(what, self.size.pixels() as u64 * (PIXEL_BYTES + lights * LIGHT_BYTES))?;
+        let with_lights = if lights == 1 { "a light".into() } else { format!("{} lights", grouped(lights)) };
+        let primitives = self.scene.primitive_count() as u64;
+        let scene = format!("a scene of {} primitives", grouped(primitives));
+        let limit = limit.beside(scene, primitives * PRIMITIVE_BYTES)?;
+        let ImageSize { width, height } = self.size;
+        let image = format!("an image of {width}x{height} pixels with {with_lights}");
+        let pixels = self.size.pixels() as u64;
+        let limit =
+            limit.beside(image, pixels * PIXEL_BYTES + lights * (pixels * LIGHT_BYTES + BYTES_A_LIGHT))?;
+        let trees = |nodes: u64| {
+            let what = format!("ray trees of {} points with {with_lights}", grouped(nodes));
+            limit.beside(what, nodes.saturating_sub(pixels) * (NODE_BYTES + lights * LIGHT_BYTES))
+        };
         let hits = rules.first_hits.first_hits(&self.scene, &self.camera, self.size);
         let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
         let eye_rays = self.size.pixels() as u64;
-        let forest = RayForest::grow(&self.scene, visible, eye_rays, rules.trees);
-        Ok(Seen { hits, forest })
+        let room = |nodes: u64| trees(nodes).map(drop);
+        let forest = RayForest::grow_within(&self.scene, visible, eye_rays, rules.trees, &room)?;
+        let memory = trees(forest.nodes.points.len() as u64)?;
+        Ok(Seen { hits, forest, memory })
     }
 }
 
 /// The most samples of a picture: as many pixels as an image may have, sixteen times.
 const MOST_SAMPLES: u64 = 1 << 28;
 
+/// Bytes of a primitive: itself, what all lights share of it, the arbiter's hierarchy of it, and that of one tester
+/// while it is built.
+const PRIMITIVE_BYTES: u64 = 1536;
+
 /// Bytes of a pixel: planes of the picture, its item in the t-buffer, its surface point and shading.
 const PIXEL_BYTES: u64 =
-    14 * size_of::<f32>() as u64 + 32 + size_of::<SurfacePoint>() as u64 + size_of::<ShadedPoint>() as u64;
+    15 * size_of::<f32>() as u64 + 32 + size_of::<SurfacePoint>() as u64 + size_of::<ShadedPoint>() as u64;
 
-/// Bytes of a pixel a light: its query, and a mask and a plane a tester.
-const LIGHT_BYTES: u64 = size_of::<SurfacePoint>() as u64 + 4 + 5 * (REGISTRY.len() as u64 + 2);
+/// Bytes of a pixel a light: its query and what arrives there, and a mask and a plane a tester.
+const LIGHT_BYTES: u64 = size_of::<SurfacePoint>() as u64 + 4 + 12 + 5 * (REGISTRY.len() as u64 + 2);
+
+/// Bytes of a light whatever the size of the image: its row of the table, and names of its channels.
+const BYTES_A_LIGHT: u64 = 8192;
+
+/// Bytes of a point in mirrors and behind glass: its ray before it is traced, itself, its share and its shading.
+const NODE_BYTES: u64 = 256 + size_of::<SurfacePoint>() as u64 + size_of::<ShadedPoint>() as u64;
 
 /// How a view is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -122,6 +144,8 @@ pub struct Seen {
     pub hits: FirstHits,
     /// The visible points, with those in mirrors and behind glass.
     pub forest: RayForest,
+    /// What is left for testers.
+    pub memory: MemoryLimit,
 }
 
 fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {

@@ -3,7 +3,7 @@
 use super::canvas::Canvas;
 use super::legend::{self, Entry, Layout};
 use super::markers::draw_rings;
-use super::{Marking, RARE_PIXELS, write_png_rgb};
+use super::{FileSet, Marking, RARE_PIXELS, add_png_rgb};
 use crate::error::{Error, Result};
 use crate::scene::ImageSize;
 use std::path::Path;
@@ -139,8 +139,18 @@ impl CategoryMap {
 /// # Errors
 /// [`Error::Io`] if the file cannot be written.
 pub fn write_false_colour(path: &Path, map: &CategoryMap) -> Result<()> {
+    let mut files = FileSet::new();
+    add_false_colour(&mut files, path, map)?;
+    files.publish()
+}
+
+/// The same as one file of several that appear together.
+///
+/// # Errors
+/// As [`write_false_colour`].
+pub fn add_false_colour(files: &mut FileSet, path: &Path, map: &CategoryMap) -> Result<()> {
     let (size, rgb) = map.render();
-    write_png_rgb(path, size, &rgb)
+    add_png_rgb(files, path, size, &rgb)
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //!
 //! Numbers go to OpenEXR in 32-bit floats, exactly as they were computed ([`write_exr`]); PNG files are for
 //! people ([`write_png_rgb`], [`write_false_colour`]). The bytes of every file depend on what it shows and
-//! on nothing else: not on threads, time or place. Files appear whole or not at all ([`write_atomically`]).
+//! on nothing else: not on threads, time or place. Files appear whole or not at all ([`write_atomically`]), and
+//! several of them together ([`FileSet`]).
 
 mod attribute_order;
 mod canvas;
@@ -19,14 +20,14 @@ mod png;
 mod subdivision;
 mod tone;
 
-pub use crate::atomic::write_atomically;
+pub use crate::atomic::{FileSet, write_atomically};
 pub use digits::grouped;
 pub use exr_reader::read_exr;
-pub use false_colour::{Category, CategoryMap, write_false_colour};
+pub use false_colour::{Category, CategoryMap, add_false_colour, write_false_colour};
 pub use markers::{Marking, RARE_PIXELS};
 pub use names::{safe_light_name, unique_safe_names};
-pub use open_exr::write_exr;
+pub use open_exr::{add_exr, write_exr};
 pub use planes::{ImagePlanes, Plane};
-pub use png::write_png_rgb;
+pub use png::{add_png_rgb, write_png_rgb};
 pub use subdivision::subdivided;
 pub use tone::{ToneMap, linear_to_srgb8};

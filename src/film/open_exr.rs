@@ -1,7 +1,7 @@
 //! Writes OpenEXR files: one part, full channel names, 32-bit floats, compressed without loss.
 
 use super::attribute_order::sort_attributes;
-use super::{ImagePlanes, Plane, write_atomically};
+use super::{FileSet, ImagePlanes, Plane};
 use crate::error::Result;
 use exr::block::writer::ChunksWriter;
 use exr::block::{BlockIndex, UncompressedBlock};
@@ -43,7 +43,17 @@ const REC_709: Chromaticities = Chromaticities {
 /// # Errors
 /// [`crate::Error::Io`] if the file cannot be written, or the image has no channel; nothing is left then.
 pub fn write_exr(path: &Path, image: &ImagePlanes) -> Result<()> {
-    write_atomically(path, |file| {
+    let mut files = FileSet::new();
+    add_exr(&mut files, path, image)?;
+    files.publish()
+}
+
+/// The same as one file of several that appear together.
+///
+/// # Errors
+/// As [`write_exr`].
+pub fn add_exr(files: &mut FileSet, path: &Path, image: &ImagePlanes) -> Result<()> {
+    files.write(path, |file| {
         let mut planes: Vec<&Plane> = image.channels().iter().collect();
         planes.sort_by(|a, b| a.name.cmp(&b.name));
         write_blocks(file, header(image, &planes), &planes).map_err(|error| match error {

@@ -16,7 +16,7 @@ fn number(value: &Value) -> u64 {
 fn the_verdict_says_at_each_pixel_why_embree_is_wrong() {
     let folder = Folder::new();
     let out = folder.path("out");
-    let options = ["--json", "-", "--light", "3,4,2", "--embree-epsilon", LARGE];
+    let options = ["--json", "-", "--embree-epsilon", LARGE];
     let report = json(&validate(BLOCKS, &out, &options).done().stdout);
     let light = &report["lights"][0];
     let planes = read_exr(&out.join("image.exr")).unwrap();
@@ -24,7 +24,7 @@ fn the_verdict_says_at_each_pixel_why_embree_is_wrong() {
     let codes = planes.channel(&format!("shadow.{name}.verdict")).unwrap();
     let with_cause = |hundred: u64| codes.iter().filter(|&&code| code as u64 / 100 == hundred).count() as u64;
     let causes = &light["testers"]["embree"]["causes"];
-    assert!(number(&causes["epsilon"]) > 10, "{causes}");
+    assert!(number(&causes["epsilon"]) > 0, "{causes}");
     for (hundred, cause) in [(1, "epsilon"), (2, "input_rounding"), (3, "traversal")] {
         assert_eq!(with_cause(hundred), number(&causes[cause]), "{cause}");
     }
@@ -53,7 +53,7 @@ fn large_epsilons_leak_and_the_sweep_says_how_much() {
         assert_eq!(counted["false_light"], swept["false_light"], "{tester}");
         assert_eq!(counted["false_shadow"], swept["false_shadow"], "{tester}");
         let leaks = [1e-4, 1e-3, 1e-2].map(|epsilon| number(&at(tester, epsilon)["false_light"]));
-        assert!(leaks.is_sorted() && leaks[2] > 10, "{tester}: {leaks:?}");
+        assert!(leaks.is_sorted() && leaks[2] > 0, "{tester}: {leaks:?}");
     }
     // Without the receiver left out, nothing but an epsilon keeps rays off the surface that they begin on.
     assert!(

@@ -4,12 +4,20 @@ mod embree_modes;
 mod epsilon;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+#[cfg(unix)]
+mod full_disks;
 mod fuzz;
 mod hard_cases;
 mod hostile;
 mod info;
+mod many_lights;
 mod masks;
+mod memory;
+#[cfg(all(feature = "embree", target_os = "linux"))]
+mod missing_library;
 mod outputs;
+#[cfg(unix)]
+mod places;
 #[path = "../formats/polygon_writers.rs"]
 mod polygon_writers;
 mod render;
@@ -18,6 +26,10 @@ mod reproduce;
 mod reproduce_t_buffer;
 mod same_scene;
 mod shadow_buffer;
+#[cfg(unix)]
+mod signals;
+#[cfg(unix)]
+mod streams;
 mod switches;
 mod trees;
 mod usage;

@@ -306,10 +306,10 @@ fn more_lights_than_the_limit() {
     let lights = |d: &mut Value| {
         d["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point" }] } });
         let light = json!({ "extensions": { "KHR_lights_punctual": { "light": 0 } } });
-        d["nodes"] = json!(vec![light; 1025]);
-        d["scenes"][0]["nodes"] = json!((0..1025).collect::<Vec<_>>());
+        d["nodes"] = json!(vec![light; 16_385]);
+        d["scenes"][0]["nodes"] = json!((0..16_385).collect::<Vec<_>>());
     };
-    spoilt(lights, &["node 1024: expected at most 1024 lights"]);
+    spoilt(lights, &["node 16384: expected at most 16384 lights"]);
 }
 
 #[test]

@@ -145,7 +145,7 @@ fn lights_that_are_none() {
     for colour in ["-1", "nan", "inf", "1e31"] {
         entity_refused(&format!("l 1 2 3 1 1 {colour}"), &["bad.nff:5: expected a colour from 0 to 1e30"]);
     }
-    text_refused("l 0 0 9\n".repeat(1025), &["bad.nff:1025: expected at most 1024 lights"]);
+    text_refused("l 0 0 9\n".repeat(16_385), &["bad.nff:16385: expected at most 16384 lights"]);
 }
 
 #[test]

@@ -129,8 +129,8 @@ fn lights_that_contradict_themselves() {
     );
     rest("directional", "towards = [0, 1, 0]\nouter_degrees = 3", "`outer_degrees` is for spot lights");
     rest("directional", "towards = [0, 1, 0]\ndirection = [0, 1, 0]", "found both");
-    let many = "[[light]]\ntype = 'directional'\ntowards = [0, 1, 0]\n".repeat(1025);
-    elements_refused(&many, &["bad.toml:3077: expected at most 1024 lights"]);
+    let many = "[[light]]\ntype = 'directional'\ntowards = [0, 1, 0]\n".repeat(16_385);
+    elements_refused(&many, &["bad.toml:49157: expected at most 16384 lights"]);
 }
 
 #[test]

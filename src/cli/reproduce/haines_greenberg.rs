@@ -1,9 +1,10 @@
 //! The seven timing tests of Haines and Greenberg, The Light Buffer, 1986.
 
+use super::super::Outcome;
 use super::super::progress::Messages;
-use super::super::{Outcome, output};
 use super::Args;
 use crate::error::{Error, Result};
+use crate::film::FileSet;
 use crate::measure::haines_greenberg::{Plan, ViewOfScene, measure};
 use crate::measure::timed;
 use crate::report::haines_greenberg::paper::{RESOLUTIONS, TABLES, Table};
@@ -120,9 +121,10 @@ fn is_same_but_for_the_view(one: &Scene, other: &Scene) -> bool {
 }
 
 fn write_all(args: &Args, document: &Reproduction) -> Result<()> {
-    output::folder(&args.output)?;
+    let mut files = FileSet::new();
+    files.folder(&args.output)?;
     for environment in &document.environments {
-        args.write(&format!("{}.svg", environment.name), &plots::plots(environment)?)?;
+        args.write(&mut files, &format!("{}.svg", environment.name), &plots::plots(environment)?)?;
     }
-    args.write_results(document, &table::tables(document), &csv::csv(document))
+    args.finish(files, document, &table::tables(document), &csv::csv(document))
 }

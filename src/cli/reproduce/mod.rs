@@ -8,13 +8,13 @@ use super::options::{parse_size, thread_pool};
 use super::progress::Messages;
 use super::{Outcome, output};
 use crate::error::{Error, Result};
-use crate::film::write_atomically;
+use crate::film::FileSet;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::ImageSize;
 use clap::ValueEnum;
 use serde::Serialize;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -63,6 +63,7 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let messages = Messages::new(args.quiet);
     args.refuse_foreign_options()?;
     output::expect_folder(&args.output)?;
+    output::warn_of_remains(&args.output, messages);
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     thread_pool(args.threads)?.install(|| match args.paper {
         Paper::HainesGreenberg => haines_greenberg::run(args, messages),
@@ -87,22 +88,18 @@ impl Args {
         self.memory_limit.unwrap_or_else(MemoryLimit::of_this_machine)
     }
 
-    /// Writes a file into the folder.
-    fn write(&self, name: &str, text: &str) -> Result<()> {
-        write_atomically(&self.output.join(name), |file| file.write_all(text.as_bytes()))
+    /// Adds a file of the folder.
+    fn write(&self, files: &mut FileSet, name: &str, text: &str) -> Result<()> {
+        files.write(&self.output.join(name), |file| file.write_all(text.as_bytes()))
     }
 
-    /// Writes the document in its three forms, and the one that was asked for to standard output.
-    fn write_results(&self, document: &impl Serialize, text: &str, csv: &str) -> Result<()> {
-        self.write("reproduce.csv", csv)?;
-        self.write("reproduce.txt", text)?;
-        output::write_json(&self.output.join("reproduce.json"), document)?;
-        if let Some(path) = &self.json {
-            output::write_json(path, document)?;
-        }
-        if self.json.as_deref() == Some(Path::new("-")) {
-            return Ok(());
-        }
-        output::print(text)
+    /// Adds the document in its three forms, writes the one that was asked for to standard output, and lets all files
+    /// appear.
+    fn finish(&self, mut files: FileSet, document: &impl Serialize, text: &str, csv: &str) -> Result<()> {
+        self.write(&mut files, "reproduce.csv", csv)?;
+        self.write(&mut files, "reproduce.txt", text)?;
+        output::add_json(&mut files, &self.output.join("reproduce.json"), document)?;
+        let shown = output::add_copy(&mut files, self.json.as_deref(), document, || text.into())?;
+        output::finish(files, &shown)
     }
 }

@@ -1,10 +1,11 @@
 //! Figures 9 to 18 of Raghuvanshi and Dhande, Raytraced rendering using t-buffer and shadow-buffer, 2004.
 
+use super::super::Outcome;
 use super::super::progress::Messages;
-use super::super::{Outcome, output};
 use super::Args;
 use super::stage::{Appearance, Stage};
 use crate::error::Result;
+use crate::film::FileSet;
 use crate::measure::raghuvanshi_dhande::{
     Contender, MeasuredFrame, ObjectKind, Plan, Series, answers_of, judged, measure,
 };
@@ -74,17 +75,18 @@ pub fn run(args: &Args, messages: Messages) -> Result<Outcome> {
         repetitions: args.repetitions,
         memory: args.memory_limit(),
     };
-    output::folder(&args.output)?;
+    let mut files = FileSet::new();
+    files.folder(&args.output)?;
     let mut document = Document::new(&plan, rayon::current_num_threads());
     for figure in [9, 10, 11] {
         if options.wants(figure) {
             messages.say(&format!("drawing figure {figure}"));
-            document.figures.push(switched(args, figure, &mut document.native_wrong)?);
+            document.figures.push(switched(args, &mut files, figure, &mut document.native_wrong)?);
         }
     }
     if options.wants(12) {
         messages.say("drawing figure 12");
-        document.figures.push(figure_12(args, &mut document.native_wrong)?);
+        document.figures.push(figure_12(args, &mut files, &mut document.native_wrong)?);
     }
     if (13..=16).any(|figure| options.wants(figure)) {
         let series = measure_series(options, &plan, messages)?;
@@ -111,14 +113,14 @@ pub fn run(args: &Args, messages: Messages) -> Result<Outcome> {
     }
     if options.wants(18) {
         messages.say("drawing figure 18");
-        document.figures.push(figure_18(args, &mut document.native_wrong)?);
+        document.figures.push(figure_18(args, &mut files, &mut document.native_wrong)?);
     }
     for figure in &document.figures {
         if let Some(name) = &figure.plot {
-            args.write(name, &plots::plot(figure)?)?;
+            args.write(&mut files, name, &plots::plot(figure)?)?;
         }
     }
-    args.write_results(&document, &table::tables(&document), &csv::csv(&document))?;
+    args.finish(files, &document, &table::tables(&document), &csv::csv(&document))?;
     Ok(if document.native_wrong > 0 { Outcome::NativeWrong } else { Outcome::Right })
 }
 
@@ -147,7 +149,7 @@ fn measure_series(options: &FigureOptions, plan: &Plan, messages: Messages) -> R
 }
 
 /// Figures 9, 10 and 11: switch after switch is turned on.
-fn switched(args: &Args, figure: u32, native_wrong: &mut u64) -> Result<Figure> {
+fn switched(args: &Args, files: &mut FileSet, figure: u32, native_wrong: &mut u64) -> Result<Figure> {
     let (appearance, contender) = match figure {
         9 => (Appearance { reflections: Following::Off, textures: Textures::Off }, Contender::BruteForce),
         10 => (Appearance { reflections: Following::On, textures: Textures::Off }, Contender::BruteForce),
@@ -155,9 +157,9 @@ fn switched(args: &Args, figure: u32, native_wrong: &mut u64) -> Result<Figure> 
         _ => (Appearance::FULL, Contender::ShadowBuffer(COARSE_ROWS)),
     };
     let stage = Stage::new(args, find("three-spheres")?.build(None)?, appearance)?;
-    let judged = judged(&stage.input(args), &stage.queries, &[contender])?;
+    let judged = judged(&stage.input(), &stage.queries, &[contender])?;
     let tester = &judged.testers[0];
-    let mut picture = stage.draw(args, &format!("figure-{figure}"), contender, &tester.answers)?;
+    let mut picture = stage.draw(args, files, &format!("figure-{figure}"), contender, &tester.answers)?;
     let unlike = stage.unlike_classical();
     picture.errors = Some(ErrorReport::new(tester.errors, judged.queries));
     picture.unlike_classical = Some(unlike);
@@ -169,7 +171,7 @@ fn switched(args: &Args, figure: u32, native_wrong: &mut u64) -> Result<Figure> 
 }
 
 /// The procedural scene, both kinds.
-fn figure_12(args: &Args, native_wrong: &mut u64) -> Result<Figure> {
+fn figure_12(args: &Args, files: &mut FileSet, native_wrong: &mut u64) -> Result<Figure> {
     let most = args.raghuvanshi_dhande.most_objects();
     let mut pictures = Vec::new();
     let mut size = TIMED_SIZE;
@@ -177,9 +179,9 @@ fn figure_12(args: &Args, native_wrong: &mut u64) -> Result<Figure> {
         for objects in PICTURED_OBJECTS.into_iter().filter(|&objects| objects <= most) {
             let stage = Stage::new(args, kind.stacked(objects)?, Appearance::FULL)?;
             let contender = Contender::BruteForce;
-            let answers = answers_of(contender, &stage.input(args), &stage.queries)?;
+            let answers = answers_of(contender, &stage.input(), &stage.queries)?;
             let name = format!("figure-12-{}-{objects}", kind.name());
-            let mut picture = stage.draw(args, &name, contender, &answers)?;
+            let mut picture = stage.draw(args, files, &name, contender, &answers)?;
             let unlike = stage.unlike_classical();
             picture.unlike_classical = Some(unlike);
             *native_wrong += unlike;
@@ -191,18 +193,18 @@ fn figure_12(args: &Args, native_wrong: &mut u64) -> Result<Figure> {
 }
 
 /// The same scene by pure ray tracing, and by shadow-buffers of rising resolution, all held against the arbiter.
-fn figure_18(args: &Args, native_wrong: &mut u64) -> Result<Figure> {
+fn figure_18(args: &Args, files: &mut FileSet, native_wrong: &mut u64) -> Result<Figure> {
     let stage = Stage::new(args, find("three-spheres")?.build(None)?, Appearance::FULL)?;
     let buffers = ROWS_OF_18.into_iter().map(Contender::ShadowBuffer);
     let contenders: Vec<Contender> = [Contender::BruteForce].into_iter().chain(buffers).collect();
-    let judged = judged(&stage.input(args), &stage.queries, &contenders)?;
+    let judged = judged(&stage.input(), &stage.queries, &contenders)?;
     *native_wrong += judged.testers[0].errors.wrong();
     let edges = stage.edges(&judged.truth);
     let mut pictures = Vec::new();
     for tester in &judged.testers {
         let name = tester.contender.rows().map_or("ray-traced".into(), |rows| format!("rows-{rows}"));
         let name = format!("figure-18-{name}");
-        let mut picture = stage.draw(args, &name, tester.contender, &tester.answers)?;
+        let mut picture = stage.draw(args, files, &name, tester.contender, &tester.answers)?;
         picture.errors = Some(ErrorReport::new(tester.errors, judged.queries));
         let near = |edges, rows| stage.wrong_near(edges, &tester.answers, &judged.truth, rows).into();
         picture.edges = edges.as_ref().zip(tester.contender.rows()).map(|(edges, rows)| near(edges, rows));

@@ -5,11 +5,12 @@ use super::super::picture::{self, Lighting};
 use super::super::view::{LookRules, Seen, View};
 use super::Args;
 use crate::error::{Error, Result};
-use crate::film::write_exr;
+use crate::film::{FileSet, add_exr};
 use crate::geometry::LightPosition;
 use crate::measure::Answers;
 use crate::measure::raghuvanshi_dhande::{Contender, buffer_of_rows};
 use crate::report::raghuvanshi_dhande::Picture;
+use crate::scene::formats::SceneFiles;
 use crate::scene::{ImageSize, Scene};
 use crate::shading::{Following, Textures, TreeRules, USUAL_DEPTH};
 use crate::shadow::shadow_buffer::sphere::Sphere;
@@ -55,7 +56,7 @@ impl Stage {
     pub fn new(args: &Args, scene: Scene, appearance: Appearance) -> Result<Stage> {
         let size = picture_size(args, &scene)?;
         let camera = scene.cameras[0].clone();
-        let view = View { scene, camera, size, added: Vec::new() };
+        let view = View { scene, camera, size, files: SceneFiles::default(), added: Vec::new() };
         let trees = TreeRules { reflections: appearance.reflections, ..TreeRules::of_depth(USUAL_DEPTH) };
         let rules = LookRules { first_hits: FirstHitMethod::TBuffer, trees };
         let seen = view.look(rules, args.memory_limit())?;
@@ -70,11 +71,11 @@ impl Stage {
     }
 
     /// What testers of the light are built from.
-    pub fn input(&self, args: &Args) -> BuildInput<'_> {
+    pub fn input(&self) -> BuildInput<'_> {
         let scene = &self.view.scene;
         let embree = EmbreeSettings { threads: rayon::current_num_threads(), ..EmbreeSettings::default() };
         let usual = BuildInput::new(scene, &self.index, scene.lights[0].position());
-        BuildInput { memory: args.memory_limit(), embree, ..usual }
+        BuildInput { memory: self.seen.memory, embree, ..usual }
     }
 
     /// Pixels at which the classical tracer sees something else.
@@ -108,7 +109,14 @@ impl Stage {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn draw(&self, args: &Args, name: &str, contender: Contender, answers: &Answers) -> Result<Picture> {
+    pub fn draw(
+        &self,
+        args: &Args,
+        files: &mut FileSet,
+        name: &str,
+        contender: Contender,
+        answers: &Answers,
+    ) -> Result<Picture> {
         let crossings = answers.crossings.as_ref();
         let lighting = Lighting::Shadowed { occluded: &answers.occluded, crossings };
         let lights = [(&self.queries, lighting)];
@@ -121,8 +129,8 @@ impl Stage {
         let left_out = self.appearance.left_out();
         picture::add_left_out(&mut planes, &left_out)?;
         let (png, exr) = (format!("{name}.png"), format!("{name}.exr"));
-        write_exr(&args.output.join(&exr), &planes)?;
-        output::write_preview(&args.output.join(&png), &planes, self.view.scene.background, 0.0)?;
+        add_exr(files, &args.output.join(&exr), &planes)?;
+        output::add_preview(files, &args.output.join(&png), &planes, self.view.scene.background, 0.0)?;
         Ok(Picture {
             png,
             exr,

@@ -155,6 +155,17 @@ impl Denial {
     }
 }
 
+thread_local! {
+    /// Files that were read on this thread, in the order of reading. Every loader ends in [`read_regular`], and none
+    /// of them has another reason to know.
+    static READ: RefCell<Vec<PathBuf>> = const { RefCell::new(Vec::new()) };
+}
+
+/// The files that were read on this thread since the last time that this was asked.
+pub(super) fn files_read() -> Vec<PathBuf> {
+    READ.take()
+}
+
 /// Reads a file whole if it is a regular one of at most `limit` bytes.
 fn read_regular(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Denial> {
     // Asked before opening: to open a pipe that nobody writes to would wait for ever.
@@ -175,6 +186,7 @@ fn read_regular(path: &Path, limit: u64) -> std::result::Result<Vec<u8>, Denial>
     if bytes.len() as u64 > limit {
         return Err(too_large(bytes.len() as u64));
     }
+    READ.with_borrow_mut(|read| read.push(path.to_path_buf()));
     Ok(bytes)
 }
 

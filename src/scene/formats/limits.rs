@@ -27,8 +27,8 @@ pub const MAX_CURVED: u64 = 1 << 24;
 /// The most objects; `object_id` image channels hold them exactly up to 2^24.
 pub const MAX_OBJECTS: u64 = 1 << 20;
 
-/// The most lights; each costs a pass over the image.
-pub const MAX_LIGHTS: usize = 1 << 10;
+/// The most lights; each costs a pass over the image, and a channel in it.
+pub const MAX_LIGHTS: usize = 1 << 14;
 
 /// The most pixels of the image that a camera brings; the command line may ask for more.
 pub const MAX_CAMERA_PIXELS: u64 = 1 << 24;

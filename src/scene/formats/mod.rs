@@ -25,7 +25,7 @@ use super::{Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
 use crate::float_environment::StandardFloats;
 use crate::memory::MemoryLimit;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Reads a scene file; the extension of its name decides the format: `.obj`, `.ply`, `.gltf`, `.glb`,
 /// `.nff` or `.toml`. `builtin:NAME` is no file but the scene of that name in
@@ -70,6 +70,28 @@ pub fn load_within(path: &Path, limit: MemoryLimit) -> Result<Scene> {
         return Err(Error::input(path, Place::File, why));
     }
     Ok(scene)
+}
+
+/// The files that a scene was read from: its own, and those that it names.
+#[derive(Debug, Clone, Default)]
+pub struct SceneFiles(Vec<PathBuf>);
+
+impl SceneFiles {
+    /// Whether a file is one of them.
+    pub fn contain(&self, file: &Path) -> bool {
+        self.0.iter().any(|read| read == file)
+    }
+}
+
+/// The same as [`load_within`], and the files that were read for it.
+///
+/// # Errors
+/// As [`load_within`].
+pub fn load_with_files(path: &Path, limit: MemoryLimit) -> Result<(Scene, SceneFiles)> {
+    confined::files_read();
+    let scene = load_within(path, limit)?;
+    let canonical = |file: PathBuf| file.canonicalize().unwrap_or(file);
+    Ok((scene, SceneFiles(confined::files_read().into_iter().map(canonical).collect())))
 }
 
 /// What a name begins with that is of a built-in scene and not of a file.

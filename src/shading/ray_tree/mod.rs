@@ -9,6 +9,7 @@ mod spawn;
 pub use branch::{reflected, refracted};
 pub use spawn::{Branch, Kind, branches};
 
+use crate::error::Result;
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::scene::{Material, Scene};
 use crate::visibility::hierarchy::{FirstHit, Hierarchy, Ray};
@@ -103,6 +104,21 @@ struct Twig {
 impl RayForest {
     /// Grows the trees of what a camera sees, of `eye_rays` rays.
     pub fn grow(scene: &Scene, seen: VisibleSurfaces, eye_rays: u64, rules: TreeRules) -> RayForest {
+        RayForest::grow_within(scene, seen, eye_rays, rules, &|_| Ok(())).expect("every size is allowed")
+    }
+
+    /// The same, where `room` is asked before each level whether there may be so many points: between mirrors and
+    /// panes of glass their number doubles with every level.
+    ///
+    /// # Errors
+    /// That of `room`.
+    pub fn grow_within(
+        scene: &Scene,
+        seen: VisibleSurfaces,
+        eye_rays: u64,
+        rules: TreeRules,
+        room: &dyn Fn(u64) -> Result<()>,
+    ) -> Result<RayForest> {
         let _floats = StandardFloats::new();
         let hits = seen.points.len();
         let statistics =
@@ -118,12 +134,13 @@ impl RayForest {
                 if twigs.is_empty() {
                     break;
                 }
+                room((first + twigs.len()) as u64)?;
                 forest.statistics.depth += 1;
                 forest.trace(scene, &hierarchy, &twigs);
             }
         }
         forest.statistics.nodes = forest.nodes.points.len() as u64;
-        forest
+        Ok(forest)
     }
 
     /// The rays that leave the nodes from a number on, in their order.

@@ -8,7 +8,7 @@ mod numbers;
 mod textures;
 mod toml;
 
-use crate::atomic::write_atomically;
+use crate::atomic::{FileSet, write_atomically};
 use crate::error::{Error, Place, Result};
 use crate::scene::{Light, Object, Scene};
 use std::io::Write;
@@ -35,8 +35,10 @@ pub fn save(scene: &Scene, path: &Path) -> Result<()> {
         "toml" => {
             let pictures = textures::Files::of(scene, path).map_err(refuse)?;
             let text = toml::text(scene, &pictures).map_err(refuse)?;
-            pictures.write(path)?;
-            write_atomically(path, |file| file.write_all(text.as_bytes()))
+            let mut files = FileSet::new();
+            pictures.write(path, &mut files)?;
+            files.write(path, |file| file.write_all(text.as_bytes()))?;
+            files.publish()
         }
         "nff" => {
             let text = nff::text(scene).map_err(refuse)?;

@@ -1,7 +1,7 @@
 //! Images of textures, as files beside a scene.
 
 use super::Complaint;
-use crate::atomic::write_atomically;
+use crate::atomic::FileSet;
 use crate::error::Result;
 use crate::scene::formats::limits::MAX_IMAGE_TEXELS;
 use crate::scene::{Image, Pattern, Scene, Texels};
@@ -58,10 +58,10 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// What the operating system refuses.
-    pub(super) fn write(&self, scene: &Path) -> Result<()> {
+    pub(super) fn write(&self, scene: &Path, files: &mut FileSet) -> Result<()> {
         for image in &self.images {
             let Texels::Srgb(texels) = &image.texels else { continue };
-            write_atomically(&scene.with_file_name(self.name(image)), |file| {
+            files.write(&scene.with_file_name(self.name(image)), |file| {
                 let (width, height) = (image.width, image.height);
                 let mut buffered = io::BufWriter::new(file);
                 let encoder = PngEncoder::new(&mut buffered);
