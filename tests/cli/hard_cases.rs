@@ -35,7 +35,11 @@ fn every_case_is_judged_and_no_native_answer_is_wrong() {
     assert_eq!(report["totals"]["verdicts"]["native_wrong"], 0);
     let last = run.stdout.lines().last().unwrap();
     assert!(last.starts_with("0 of ") && last.contains(" native answers wrong; "), "{last}");
-    assert_eq!(crate::names(&folder.path("out")), ["validate.json"]);
+    let pictures = (1..=47).map(|number| format!("case-{number:02}.svg"));
+    let files: Vec<_> = pictures.chain(["validate.json".into()]).collect();
+    assert_eq!(crate::names(&folder.path("out")), files);
+    let sliver = std::fs::read_to_string(folder.path("out").join("case-27.svg")).unwrap();
+    assert!(sliver.starts_with("<svg") && sliver.contains("Embree wrong"), "{sliver}");
 }
 
 #[test]
@@ -49,13 +53,14 @@ fn they_are_for_validate_alone_and_without_a_camera() {
         let line = lightbuffer(command).failed();
         assert!(line.contains("builtin:hard-cases is for `validate` alone"), "{line}");
     }
-    let options: [&[&str]; 6] = [
+    let options: [&[&str]; 7] = [
         &["--size", "64x64"],
         &["--light", "1,2,3"],
         &["--lights", "2"],
         &["--camera", "eye"],
         &["--stats"],
         &["--shadow", "brute-force"],
+        &["--sweep-epsilon"],
     ];
     for option in options {
         let arguments = [&["validate", NAME, "-o", out.to_str().unwrap()], option].concat();
