@@ -120,8 +120,13 @@ impl SceneBuilder {
         SceneBuilder { scene, light_names, camera_names, already_said: Dropped::default() }
     }
 
-    /// Adds a material and returns its index.
-    pub fn add_material(&mut self, material: Material) -> u32 {
+    /// Adds a material and returns its index. Shares of minus zero become zero, which is what they mean.
+    pub fn add_material(&mut self, mut material: Material) -> u32 {
+        let transmittance =
+            material.transmission.as_mut().map(|transmission| &mut transmission.transmittance);
+        let shares = [&mut material.diffuse, &mut material.specular, &mut material.mirror].into_iter();
+        // Minus zero and zero are zero.
+        shares.chain(transmittance).flatten().for_each(|share| *share += 0.0);
         self.scene.materials.push(material);
         self.scene.materials.len() as u32 - 1
     }
