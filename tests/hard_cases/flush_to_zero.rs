@@ -42,8 +42,16 @@ fn flushed<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     std::thread::scope(|scope| scope.spawn(in_thread).join().unwrap())
 }
 
-/// What all native testers, the arbiter and the definition say of a situation, and what is seen of its scene.
-fn everything(situation: &Situation) -> (Vec<(&'static str, Vec<bool>)>, Vec<Vec<Option<u32>>>) {
+/// What is said of a situation.
+#[derive(Debug, PartialEq)]
+struct Everything {
+    /// By all native testers, the arbiter and the definition.
+    answers: Vec<(&'static str, Vec<bool>)>,
+    /// The first hits of a camera, by each way to find them.
+    seen: [Vec<Option<u32>>; 3],
+}
+
+fn everything(situation: &Situation) -> Everything {
     let (scene, light) = (&situation.scene, situation.light);
     let index = SceneIndex::new(scene);
     let input = BuildInput {
@@ -67,7 +75,7 @@ fn everything(situation: &Situation) -> (Vec<(&'static str, Vec<bool>)>, Vec<Vec
     let camera = Camera::look_at("eye", Vec3::new(3.0, 2.0, 5.0), Vec3::ZERO, Vec3::Y, 40.0);
     let size = ImageSize { width: 9, height: 9 };
     let seen = FirstHitMethod::ALL.map(|method| method.first_hits(scene, &camera, size).primitives);
-    (answers, seen.to_vec())
+    Everything { answers, seen }
 }
 
 #[test]

@@ -26,12 +26,20 @@ pub fn check(desk: &mut Desk, input: &[u8]) -> Outcome {
     Outcome::Loaded
 }
 
-/// All channels and attributes by name, with samples that can be compared if they are NaN.
-fn bits(image: &ImagePlanes) -> (Vec<(&str, Vec<u32>)>, Vec<(String, String)>) {
+/// An image with samples that can be compared if they are NaN.
+#[derive(Debug, PartialEq)]
+struct Bits<'a> {
+    /// By name.
+    channels: Vec<(&'a str, Vec<u32>)>,
+    /// By name.
+    attributes: Vec<(String, String)>,
+}
+
+fn bits(image: &ImagePlanes) -> Bits<'_> {
     let channels = image.channels().iter();
     let channels = channels.map(|c| (c.name.as_str(), c.samples.iter().map(|s| s.to_bits()).collect()));
-    let (mut channels, mut attributes): (Vec<_>, _) = (channels.collect(), image.attributes().to_vec());
-    channels.sort();
-    attributes.sort();
-    (channels, attributes)
+    let mut bits = Bits { channels: channels.collect(), attributes: image.attributes().to_vec() };
+    bits.channels.sort();
+    bits.attributes.sort();
+    bits
 }
