@@ -100,6 +100,24 @@ fn write_the_seeds() {
     seeds::write(&fuzz().join("corpus"));
 }
 
+/// The targets are built with `--locked`, so what this crate depends on must be in their lock file too.
+#[test]
+fn the_lock_file_of_the_targets_knows_what_we_depend_on() {
+    let read = |path: &Path| std::fs::read_to_string(path).unwrap().parse::<toml::Table>().unwrap();
+    let manifest = read(&fuzz().join("../Cargo.toml"));
+    let lock = read(&fuzz().join("Cargo.lock"));
+    let is_ours = |package: &&toml::Value| package["name"].as_str() == Some("lightbuffer");
+    let ours = lock["package"].as_array().unwrap().iter().find(is_ours).expect("the crate itself");
+    let locked: Vec<&str> =
+        ours["dependencies"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    let optional =
+        |dependency: &toml::Value| dependency.get("optional").is_some_and(|o| o.as_bool() == Some(true));
+    for (name, dependency) in manifest["dependencies"].as_table().unwrap() {
+        let known = locked.iter().any(|entry| entry.split(' ').next() == Some(name));
+        assert!(known || optional(dependency), "{name}: say `cargo update --workspace` in fuzz/");
+    }
+}
+
 #[test]
 fn the_corpus_stays_small() {
     let all = Target::ALL.iter().flat_map(|target| files(&fuzz().join("corpus").join(target.name())));
