@@ -2,7 +2,7 @@
 
 use super::Crossings;
 use super::facing::{Facing, Sides};
-use crate::float_environment::{InStandardFloats, StandardFloats};
+use crate::float_environment::StandardFloats;
 use crate::scene::{Light, Scene};
 use crate::visibility::{SurfacePoint, VisibleSurfaces};
 use rayon::prelude::*;
@@ -36,8 +36,7 @@ impl Queries {
             |point: &SurfacePoint| cone.is_none_or(|cone| cone.holds(point.position, || point.exact(scene)));
         let receives =
             |point: &SurfacePoint| point.primitive().is_none_or(|p| scene.object(p).shadowing.receives);
-        let facing: Vec<Facing> =
-            visible.points.par_iter().map(|p| sides.facing(scene, p)).in_standard_floats().collect();
+        let facing: Vec<Facing> = visible.points.par_iter().map(|p| sides.facing(scene, p)).collect();
         let lets_light_through =
             |point: &SurfacePoint| point.primitive().is_some_and(|p| scene.is_transparent(p));
         let mut queries = Queries::default();

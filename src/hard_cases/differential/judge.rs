@@ -7,7 +7,7 @@ use crate::shadow::exact::plain::PlainTest;
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
 use crate::shadow::{Basis, BuildInput, Counters, Crossings, SceneIndex, TesterEntry};
 use crate::verdict::TesterCounts;
-use crate::visibility::FirstHitMethod;
+use crate::visibility::{FirstHitMethod, SurfacePoint};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
@@ -233,10 +233,7 @@ impl<'e> Judge<'e> {
         let index = SceneIndex::new(&case.scene);
         let input = settings.input(&case, &index);
         let plain = PlainTest::new(&case.scene, input.light, &case.points);
-        let defined = match plain.decide(point) {
-            Occlusion::Occluded => Answer::Occluded,
-            Occlusion::Lit => Answer::Lit(plain.crossed(point)),
-        };
+        let defined = definition(&plain, point);
         let arbiter = truth(&Arbiter::new(&input), &case, &mut Counts::default()).swap_remove(0);
         let mut said = vec![("definition", Ok(defined)), ("exact", Ok(arbiter))];
         for entry in self.entries.iter().filter(|entry| entry.basis != Basis::Truth) {
@@ -269,6 +266,14 @@ fn truth(arbiter: &Arbiter, case: &Case, counts: &mut Counts) -> Vec<Answer> {
         }
     };
     case.points.iter().map(decide).collect()
+}
+
+/// The definition's answer.
+fn definition(plain: &PlainTest, point: &SurfacePoint) -> Answer {
+    match plain.decide(point) {
+        Occlusion::Occluded => Answer::Occluded,
+        Occlusion::Lit => Answer::Lit(plain.crossed(point)),
+    }
 }
 
 /// What an answer that should be another gets wrong, if anything.
@@ -324,10 +329,7 @@ fn compare(
 fn check_arbiter(case: &Case, truth: &[Answer], judged: &mut Judged) {
     let plain = PlainTest::new(&case.scene, case.light().position(), &case.points);
     for ((point, truth), &aim) in case.points.iter().zip(truth).zip(&case.aims) {
-        let defined = match plain.decide(point) {
-            Occlusion::Occluded => Answer::Occluded,
-            Occlusion::Lit => Answer::Lit(plain.crossed(point)),
-        };
+        let defined = definition(&plain, point);
         judged.counts.arbiter_checked += 1;
         if let Some(what) = difference(truth, &defined) {
             judged.counts.arbiter_wrong += 1;
