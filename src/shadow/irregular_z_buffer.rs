@@ -9,7 +9,8 @@
 use super::certified::{Certified, automatic_resolution};
 use super::light_buffer::LightBuffer;
 use super::{
-    Basis, Batching, BuildInput, Counters, Crossings, Lights, Resolution, ShadowTester, TesterEntry,
+    Basis, Batching, BuildInput, Counters, Crossings, Lights, Receivers, Resolution, SceneIndex,
+    ShadowTester, TesterEntry,
 };
 use crate::error::Result;
 use crate::geometry::LightPosition;
@@ -53,7 +54,7 @@ impl<'a> IrregularZBuffer<'a> {
                 (Some(whole), index.beside_whole_triangles(scene))
             }
         };
-        let rest = rest.map(|index| LightBuffer::new(&BuildInput { index, ..*input })).transpose()?;
+        let rest = rest.map(|index| LightBuffer::new(&rest_of(input, index))).transpose()?;
         Ok(IrregularZBuffer { whole, resolution: input.resolution, rest, bytes: AtomicU64::new(0) })
     }
 
@@ -70,6 +71,15 @@ impl<'a> IrregularZBuffer<'a> {
         let work = whole.occluded(points, &RoundedPoints::new(points), resolution, answers)?;
         self.bytes.fetch_max(work.bytes, Relaxed);
         Ok(work.counters)
+    }
+}
+
+/// The same input over another index. Receivers on what is not in it are in no list, so that its lists must hold for
+/// points anywhere.
+fn rest_of<'a>(input: &BuildInput<'a>, index: &'a SceneIndex) -> BuildInput<'a> {
+    match std::ptr::eq(index, input.index) {
+        true => *input,
+        false => BuildInput { index, receivers: Receivers::Anywhere, ..*input },
     }
 }
 

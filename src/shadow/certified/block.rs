@@ -91,7 +91,8 @@ impl Sixteen {
                 (false, false) => Item::MAY_COVER,
             };
             self.flags[i] = cover | if irregular { Item::IRREGULAR } else { 0 };
-            live[i] = u32::from(is_asked & !out);
+            // An interval without a number: the triangle is not there.
+            live[i] = u32::from(is_asked & !out & (self.near[i] >= self.far[i]));
         }
         bits(&live)
     }

@@ -74,6 +74,7 @@ pub(super) fn certify(
     let (mut first, mut end) = (0, entries.len());
     while first < entries.len() {
         let mut far = entries[first].far;
+        debug_assert!(entries[first].near >= far, "an interval");
         let (mut covers, mut is_certain) = (0, true);
         let mut next = first;
         while let Some(entry) = entries.get(next).filter(|entry| entry.near >= far) {

@@ -8,21 +8,23 @@ use super::projection::{Projected, ROUNDOFF, larger, smaller};
 use super::receivers::Horizon;
 use super::tiles::TileGrid;
 
-/// The most columns or rows of a small triangle. The bounds below hold for up to R of them.
-const MOST: u32 = 12;
+/// The widest that a small triangle may be, in cells. The bounds below hold for up to R of them.
+const MOST: f32 = 12.0;
 
 impl Caster<'_> {
-    /// The cells that a triangle on one side touches, if they are few.
+    /// The cells that a triangle touches whose corners are rounded to one side, if they are few and certainly all of
+    /// them are on it.
     #[inline(always)]
     pub(super) fn small_box(&self, [a, b, c]: [Projected; 3]) -> Option<CellBox> {
-        let (delta, last) = (self.projector.delta, self.projector.resolution - 1);
-        // Casts take what is below zero for zero.
-        let cell = |u: f32| (u as u32).min(last);
-        let range = |a: f32, b: f32, c: f32| {
-            [cell(smaller(smaller(a, b), c) - delta), cell(larger(larger(a, b), c) + delta)]
-        };
-        let (x, y) = (range(a.u, b.u, c.u), range(a.v, b.v, c.v));
-        (x[1] - x[0] < MOST && y[1] - y[0] < MOST).then_some(CellBox { x, y })
+        let (delta, end) = (self.projector.delta, self.projector.resolution as f32);
+        let range =
+            |a: f32, b: f32, c: f32| [smaller(smaller(a, b), c) - delta, larger(larger(a, b), c) + delta];
+        let (u, v) = (range(a.u, b.u, c.u), range(a.v, b.v, c.v));
+        // At a seam it may touch the next side too, and its corners may even lie there.
+        let is_inside = (u[0] > 0.0) & (u[1] < end) & (v[0] > 0.0) & (v[1] < end);
+        let is_small = (u[1] - u[0] < MOST) & (v[1] - v[0] < MOST);
+        let cells = |[low, high]: [f32; 2]| [low as u32, high as u32];
+        (is_inside & is_small).then(|| CellBox { x: cells(u), y: cells(v) })
     }
 
     #[inline(always)]
