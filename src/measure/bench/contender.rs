@@ -1,0 +1,77 @@
+//! A tester as it takes part: its parameters, and the order in which it is asked.
+
+use super::Order;
+#[cfg(feature = "embree")]
+use crate::embree::EmbreeMode;
+use crate::shadow::{Basis, Resolution, TesterEntry};
+
+/// On whose side a tester is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Native, and it claims to be exact.
+    Native,
+    /// Embree.
+    Embree,
+    /// Native, and its error is measured.
+    Approximate,
+}
+
+/// One that is measured.
+#[derive(Clone)]
+pub struct Contender {
+    /// Who.
+    pub entry: &'static TesterEntry,
+    /// The order of the queries.
+    pub order: Order,
+    /// Cells along an edge of the light buffer, if it has such.
+    pub resolution: Option<Resolution>,
+    /// The share of a segment that Embree leaves out at its ends.
+    pub epsilon: Option<f32>,
+}
+
+impl Contender {
+    /// On whose side it is.
+    pub fn side(&self) -> Side {
+        match self.entry.basis {
+            Basis::Truth | Basis::Exact => Side::Native,
+            Basis::Measured if self.epsilon.is_some() => Side::Embree,
+            Basis::Measured => Side::Approximate,
+        }
+    }
+
+    /// What it was set to, in words.
+    pub fn parameter(&self) -> String {
+        let resolution = self.resolution.map(|resolution| match resolution {
+            Resolution::Auto => "R=auto".to_string(),
+            Resolution::Cells(cells) => format!("R={cells}"),
+        });
+        let epsilon = self.epsilon.map(|epsilon| format!("epsilon={epsilon}"));
+        let order = format!("order={}", self.order.name());
+        resolution.into_iter().chain(epsilon).chain([order]).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The mode of Embree that it is.
+    #[cfg(feature = "embree")]
+    pub fn mode(&self) -> Option<EmbreeMode> {
+        mode_of(self.entry.name)
+    }
+
+    /// Whether one hierarchy of Embree's can serve both.
+    pub fn shares_hierarchy(&self, other: &Contender) -> bool {
+        #[cfg(feature = "embree")]
+        let shares = self.mode().zip(other.mode()).is_some_and(|(one, other)| one.scene == other.scene);
+        #[cfg(not(feature = "embree"))]
+        let shares = false;
+        shares && self.side() == other.side()
+    }
+}
+
+/// The mode of Embree of a tester's name.
+#[cfg(feature = "embree")]
+pub(super) fn mode_of(name: &str) -> Option<EmbreeMode> {
+    match name {
+        "embree" => Some(EmbreeMode::ORACLE),
+        "embree-fast" => Some(EmbreeMode::RIVAL),
+        _ => name.parse().ok(),
+    }
+}
