@@ -5,7 +5,7 @@ use crate::cli::options::LightOptions;
 use crate::cli::progress::Messages;
 use crate::cli::view::View;
 use crate::error::{Error, Result};
-use crate::measure::bench::{Order, Plan};
+use crate::measure::bench::Order;
 use crate::report::bench::document::Document;
 use crate::scene::ImageSize;
 use crate::scene::formats::{self, SceneFiles};
@@ -103,8 +103,7 @@ impl Growth {
         messages: Messages,
     ) -> Result<()> {
         expect_lights(view)?;
-        let plan = Plan { finalists: 2, ..args.plan() };
-        match parts(args, view, &[Order::Tiles], &plan, messages) {
+        match parts(args, view, &[Order::Tiles], &args.plan(), messages) {
             Ok(parts) => {
                 let steps = parts.into_iter().flat_map(|part| part.growth(self.name(), at));
                 document.growth.extend(steps);

@@ -58,6 +58,10 @@ pub struct Args {
     /// Rounds in which the best have a turn each; medians over them count
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u32).range(1..=1000))]
     repeats: u32,
+    /// Of each side so many that were best for queries in the quick round, and as many that were for frames, take part
+    /// in the rounds
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u16).range(1..=1000))]
+    finalists: u16,
     /// Queries of a scene that the arbiter is asked about beside those at which testers differ
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     truth_samples: usize,
@@ -109,7 +113,12 @@ pub fn run(args: &Args) -> Result<Outcome> {
 
 impl Args {
     fn plan(&self) -> Plan {
-        Plan { rounds: self.repeats, sample: self.truth_samples, ..Plan::default() }
+        Plan {
+            rounds: self.repeats,
+            sample: self.truth_samples,
+            finalists: self.finalists.into(),
+            ..Plan::default()
+        }
     }
 
     fn choice(&self, orders: &[Order]) -> Choice {
@@ -172,7 +181,7 @@ fn parts(args: &Args, view: &View, orders: &[Order], plan: &Plan, messages: Mess
     // Fewest first: Embree's pool does not shrink.
     let mut sorted: Vec<usize> = (0..given.len()).collect();
     sorted.sort_by_key(|&i| given[i]);
-    let mut truths = Truths::new();
+    let mut truths = Truths::default();
     let mut parts: Vec<Option<Part>> = vec![None; given.len()];
     for i in sorted {
         let pool = thread_pool(given[i])?;

@@ -56,13 +56,14 @@ impl Contender {
         mode_of(self.entry.name)
     }
 
-    /// Whether one hierarchy of Embree's can serve both.
-    pub fn shares_hierarchy(&self, other: &Contender) -> bool {
+    /// Whether what is built for one can serve the other: the same tester in another order, or modes of Embree that
+    /// differ in how they ask.
+    pub fn shares_build(&self, other: &Contender) -> bool {
         #[cfg(feature = "embree")]
-        let shares = self.mode().zip(other.mode()).is_some_and(|(one, other)| one.scene == other.scene);
-        #[cfg(not(feature = "embree"))]
-        let shares = false;
-        shares && self.side() == other.side()
+        if let Some((one, other)) = self.mode().zip(other.mode()) {
+            return one.scene == other.scene;
+        }
+        self.entry.name == other.entry.name && self.resolution == other.resolution
     }
 }
 

@@ -134,7 +134,7 @@ impl Row {
     }
 }
 
-/// Everyone once; what of Embree's can share a hierarchy does. Who needs more than there is, is skipped.
+/// Everyone once; what can share what is built does. Who needs more than there is, is skipped.
 fn quick(
     contenders: &[Contender],
     stage: &Stage,
@@ -143,7 +143,7 @@ fn quick(
     skipped: &mut Vec<Skipped>,
 ) -> Result<Vec<Row>> {
     let mut rows = Vec::new();
-    for group in contenders.chunk_by(Contender::shares_hierarchy) {
+    for group in contenders.chunk_by(Contender::shares_build) {
         match table.turns(group, stage, Passes::One) {
             Ok(turns) => {
                 let pairs = group.iter().zip(&turns);

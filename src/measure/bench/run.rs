@@ -83,14 +83,14 @@ impl Table {
         })
     }
 
-    /// Turns of contenders that can share a hierarchy, which is built once; or of one alone.
+    /// Turns of contenders that can share what is built, which is done once; or of one alone.
     ///
     /// # Errors
     /// What the tester reports.
     pub fn turns(&self, group: &[Contender], stage: &Stage, passes: Passes) -> Result<Vec<Turn>> {
         match group[0].side() {
             Side::Embree => self.embree(group, stage, passes),
-            _ => group.iter().map(|who| native(who, stage, passes)).collect(),
+            _ => native(group, stage, passes),
         }
     }
 
@@ -119,22 +119,24 @@ impl Table {
     }
 }
 
-/// One tester after the other, so that only one is in memory.
-fn native(who: &Contender, stage: &Stage, passes: Passes) -> Result<Turn> {
+/// One light after the other, so that only one tester is in memory.
+fn native(group: &[Contender], stage: &Stage, passes: Passes) -> Result<Vec<Turn>> {
     let index = timed(|| SceneIndex::new(stage.scene));
-    let mut turn = Turn { build: index.seconds, ..Turn::new() };
+    let mut turns = vec![Turn { build: index.seconds, ..Turn::new() }; group.len()];
     for light in &stage.lights {
         let input = BuildInput {
-            resolution: who.resolution.unwrap_or(Resolution::Auto),
+            resolution: group[0].resolution.unwrap_or(Resolution::Auto),
             memory: stage.memory,
             embree: EmbreeSettings { threads: rayon::current_num_threads(), ..EmbreeSettings::default() },
             ..BuildInput::new(stage.scene, &index.value, light.light)
         };
-        let built = timed(|| (who.entry.build)(&input));
-        turn.build += built.seconds;
+        let built = timed(|| (group[0].entry.build)(&input));
         let tester = built.value?;
-        turn.bytes += tester.bytes() as u64;
-        turn.ask(tester.as_ref(), who, stage, passes)?;
+        for (turn, who) in turns.iter_mut().zip(group) {
+            turn.build += built.seconds;
+            turn.bytes += tester.bytes() as u64;
+            turn.ask(tester.as_ref(), who, stage, passes)?;
+        }
     }
-    Ok(turn)
+    Ok(turns)
 }

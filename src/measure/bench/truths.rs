@@ -6,7 +6,8 @@ use crate::shadow::exact::{Arbiter, Occlusion};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is known of the queries of a stage.
+/// What is known of the queries of a stage: nothing yet. The first answers are those that others are compared with.
+#[derive(Default)]
 pub struct Truths {
     /// Of each light, by places in rows.
     lights: Vec<BTreeMap<u32, bool>>,
@@ -30,11 +31,6 @@ pub struct Wrong {
 }
 
 impl Truths {
-    /// Nothing is known yet; the first answers are those that others are compared with.
-    pub fn new() -> Truths {
-        Truths { lights: Vec::new(), reference: Vec::new() }
-    }
-
     /// Where answers are not as the reference has them.
     pub fn differences(&mut self, answers: &[Vec<bool>]) -> Differences {
         if self.reference.is_empty() {
@@ -108,7 +104,7 @@ mod tests {
 
     #[test]
     fn what_differs_from_the_reference_is_counted_where_the_truth_is_known() {
-        let mut truths = Truths::new();
+        let mut truths = Truths::default();
         let reference = truths.differences(&[vec![false, true, true, false]]);
         assert_eq!(reference, Differences(vec![vec![]]));
         let other = truths.differences(&[vec![true, true, false, false]]);

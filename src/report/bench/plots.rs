@@ -65,10 +65,13 @@ fn speed_against_error(rows: &[RowReport]) -> Ranged {
     (panel, range)
 }
 
+/// A time of a row.
+type Time = fn(&RowReport) -> f64;
+
 /// The fastest of each side at each step, for queries and for frames.
 fn growth(steps: &[GrowthReport]) -> Ranged {
     let mut series = Vec::new();
-    let times: [(&str, Stroke, fn(&RowReport) -> f64); 2] = [
+    let times: [(&str, Stroke, Time); 2] = [
         ("frame", Stroke::Solid, |row| row.frame_seconds),
         ("queries", Stroke::Dotted, |row| row.query_seconds),
     ];

@@ -69,8 +69,7 @@ pub(in crate::scene::procedural) fn build(lots: u32) -> Result<Scene> {
 
 /// Where a lot begins: streets lie behind each two.
 fn edge(lot: u32) -> f64 {
-    let streets = lot.div_ceil(2);
-    f64::from(lot) + STREET * if lot % 2 == 0 { f64::from(streets) } else { f64::from(streets) - 1.0 }
+    f64::from(lot) + STREET * f64::from(lot / 2)
 }
 
 /// How a tower is built.
