@@ -34,7 +34,7 @@ impl MemoryLimit {
     /// # Errors
     /// [`Error::Usage`] if it needs more.
     pub fn check(self, what: impl Display, needed: u64) -> Result<()> {
-        if needed <= self.most.saturating_sub(self.spoken_for) {
+        if needed <= self.left() {
             return Ok(());
         }
         let beside = match self.spoken_for {
@@ -43,6 +43,11 @@ impl MemoryLimit {
         };
         let (needed, limit) = (in_words(needed), in_words(self.most));
         Err(Error::Usage(format!("{what} would need about {needed}{beside}, and --memory-limit is {limit}")))
+    }
+
+    /// The bytes that are not spoken for.
+    pub fn left(self) -> u64 {
+        self.most.saturating_sub(self.spoken_for)
     }
 
     /// The limit for everything else once something that fits is there.

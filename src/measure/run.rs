@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::shadow::{Counters, Crossings, ShadowTester};
+use crate::shadow::{Batching, Counters, Crossings, ShadowTester};
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -71,11 +71,21 @@ pub fn answer(
 ) -> Result<Answers> {
     let mut occluded = vec![false; points.len()];
     let run = timed(|| {
+        let at_once = match tester.batching() {
+            Batching::Whole => Some(tester.occluded(points, &mut occluded)?),
+            Batching::Chunks => None,
+        };
         points
             .par_chunks(CHUNK)
             .zip(occluded.par_chunks_mut(CHUNK))
-            .map(|(points, answers)| {
-                let mut counters = tester.occluded(points, answers)?;
+            .enumerate()
+            .map(|(chunk, (points, answers))| {
+                let mut counters = match at_once {
+                    None => tester.occluded(points, answers)?,
+                    // Counted once.
+                    Some(counters) if chunk == 0 => counters,
+                    Some(_) => Counters::default(),
+                };
                 let crossings = match question {
                     Question::Occlusion => None,
                     Question::OcclusionAndCrossings => Some(crossed(tester, points, answers, &mut counters)?),

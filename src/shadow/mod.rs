@@ -6,12 +6,14 @@
 
 pub mod bounding_volumes;
 pub mod brute_force;
+pub mod certified;
 mod counters;
 mod crossings;
 #[cfg(feature = "embree")]
 pub mod embree;
 pub mod exact;
 pub mod facing;
+pub mod irregular_z_buffer;
 pub mod light_buffer;
 mod precise;
 mod queries;
@@ -63,6 +65,11 @@ pub trait ShadowTester: Send + Sync {
         Ok(None)
     }
 
+    /// How [`occluded`](ShadowTester::occluded) likes to be called.
+    fn batching(&self) -> Batching {
+        Batching::Chunks
+    }
+
     /// Memory that the tester keeps, in bytes.
     fn bytes(&self) -> usize;
 
@@ -75,6 +82,15 @@ pub trait ShadowTester: Send + Sync {
     fn statistics(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
+}
+
+/// How a tester likes to be given many points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Batching {
+    /// In portions, from several threads at once.
+    Chunks,
+    /// All points of a view at once: it goes to several threads itself.
+    Whole,
 }
 
 /// Where queries may come from; testers that know leave out what nobody can ask for.

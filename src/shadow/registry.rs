@@ -3,7 +3,7 @@
 use super::shadow_buffer::{BufferFile, ShadowBufferSettings};
 use super::{
     Culling, ObjectCoherence, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold,
-    bounding_volumes, brute_force, exact, light_buffer, shadow_buffer,
+    bounding_volumes, brute_force, exact, irregular_z_buffer, light_buffer, shadow_buffer,
 };
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
@@ -127,6 +127,7 @@ pub const REGISTRY: &[TesterEntry] = &[
     brute_force::ENTRY,
     bounding_volumes::ENTRY,
     light_buffer::ENTRY,
+    irregular_z_buffer::ENTRY,
     shadow_buffer::ENTRY,
     #[cfg(feature = "embree")]
     super::embree::ROBUST,

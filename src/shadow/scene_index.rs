@@ -1,6 +1,7 @@
 //! What belongs to the scene and not to one light, made once for all of them.
 
 use super::Solids;
+use super::certified::{Adjacency, is_plain};
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
@@ -11,6 +12,7 @@ use std::collections::HashSet;
 use std::sync::OnceLock;
 
 /// What is cast, and which objects are convex.
+#[derive(Default)]
 pub struct SceneIndex {
     /// Triangles that block light: of objects that cast, exact duplicates once unless they have holes (TRUTH,
     /// "Surface points and rays").
@@ -24,6 +26,8 @@ pub struct SceneIndex {
     /// For each object its verified convexity; that of objects with curved surfaces is not known.
     pub convexity: Vec<Option<Convexity>>,
     solids: OnceLock<Solids>,
+    adjacency: OnceLock<Adjacency>,
+    beside_whole: OnceLock<Option<Box<SceneIndex>>>,
 }
 
 impl SceneIndex {
@@ -61,12 +65,35 @@ impl SceneIndex {
                 convexity::verify(&triangles)
             })
             .collect();
-        SceneIndex { casting, curved, transparent, bounds, convexity, solids: OnceLock::new() }
+        SceneIndex { casting, curved, transparent, bounds, convexity, ..SceneIndex::default() }
     }
 
     /// The closed solids of the scene that this index was made of, found when they are first asked for.
     pub fn solids(&self, scene: &Scene) -> &Solids {
         self.solids.get_or_init(|| Solids::new(scene))
+    }
+
+    /// What lies across the edges of the scene's triangles, found when it is first asked for.
+    pub fn adjacency(&self, scene: &Scene) -> &Adjacency {
+        self.adjacency.get_or_init(|| Adjacency::new(scene.vertices.len(), &scene.triangles))
+    }
+
+    /// The same index without triangles that block light and have no holes; `None` if nothing else is cast.
+    pub fn beside_whole_triangles(&self, scene: &Scene) -> Option<&SceneIndex> {
+        let make = || {
+            let casting: Vec<_> = self.casting.iter().copied().filter(|&t| !is_plain(scene, t)).collect();
+            let is_empty = casting.is_empty() && self.curved.is_empty() && self.transparent.is_empty();
+            let rest = || SceneIndex {
+                casting,
+                curved: self.curved.clone(),
+                transparent: self.transparent.clone(),
+                bounds: self.bounds,
+                convexity: self.convexity.clone(),
+                ..SceneIndex::default()
+            };
+            (!is_empty).then(|| Box::new(rest()))
+        };
+        self.beside_whole.get_or_init(make).as_deref()
     }
 }
 

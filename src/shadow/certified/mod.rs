@@ -1,0 +1,379 @@
+//! Certified cells: most queries decided by two depths of their cell, whatever lies in it.
+//!
+//! A view's queries of one light are filed in the cells of a cube around it ([`receivers`]). Triangles are then cast into those cells
+//! alone, and only where they may be in front of a receiver ([`caster`], and behind it [`small`] and [`large`]). For each cell
+//! that leaves a list, nearest first, and out of it a certificate: where the nearest surface is complete and covers
+//! the cell once, receivers on it are lit and what is behind it is dark ([`certificate`], TRUTH "Certified cells").
+//! Queries are held against these two depths ([`headers`]); what is left walks through the lists, sixteen queries at a time
+//! ([`walk`]), and where f32 leaves a test open, f64 and exact arithmetic decide it.
+//!
+//! Everything is computed with bounds that stand where it is computed: cells are supersets, depths are intervals,
+//! a receiver's cell is that of its exact point. So no answer depends on the resolution, the number of threads or the
+//! instruction set.
+
+mod adjacency;
+mod block;
+mod caster;
+mod certificate;
+mod dispatch;
+mod entries;
+mod facing;
+mod headers;
+mod large;
+mod projection;
+mod receivers;
+mod small;
+mod tiles;
+mod walk;
+
+pub use adjacency::Adjacency;
+
+use super::Counters;
+use crate::error::{Error, Result};
+use crate::float_environment::{InStandardFloats, StandardFloats};
+use crate::geometry::LightSpace;
+use crate::geometry::batch::InstructionSet;
+use crate::memory::MemoryLimit;
+use crate::scene::{PrimitiveIndex, Scene};
+use crate::visibility::{RoundedPoints, SurfacePoint};
+use caster::Caster;
+use certificate::{Header, Kinds, Record, Run};
+use entries::{Bins, Budget, Entry, Item};
+use facing::{Facing, facing};
+use glam::Vec3;
+use projection::{Projected, Projector};
+use rayon::prelude::*;
+use receivers::{CHUNK, Filed, OPEN};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use walk::{LANES, Walk};
+
+/// The largest number of cells along an edge.
+pub const MOST_CELLS: u32 = 4096;
+
+/// A light over the triangles of a scene that block light and have no holes.
+pub struct Certified<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Of its triangles.
+    pub adjacency: &'a Adjacency,
+    /// A light at a point.
+    pub light: Vec3,
+    /// What the kernels run on.
+    pub set: InstructionSet,
+    /// The most memory that a view may need.
+    pub memory: MemoryLimit,
+}
+
+/// The work that a view took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Tests and look-ups.
+    pub counters: Counters,
+    /// Cells along an edge of the cube.
+    pub resolution: u32,
+    /// Cells that were stored.
+    pub cells: u64,
+    /// Cells with something in front of a receiver.
+    pub touched: u64,
+    /// Cells whose nearest surface covers them once.
+    pub once: u64,
+    /// Cells covered by some other surface.
+    pub covered: u64,
+    /// Triangles in cells.
+    pub entries: u64,
+    /// Queries decided by the two depths of their cell.
+    pub by_header: u64,
+    /// Memory in bytes while it was done.
+    pub bytes: u64,
+}
+
+/// Tiles of a task.
+const TILES: usize = 64;
+/// Cells of a task.
+const CELLS: usize = TILES * tiles::AREA as usize;
+/// Triangles that a worker takes at a time.
+const TRIANGLES: usize = 2048;
+/// Workers that keep lists of their own: each has a number for every cell.
+const MOST_WORKERS: usize = 16;
+/// Entries that are made at most if memory is no matter: 2 GiB.
+const MOST_ENTRIES: u64 = 1 << 27;
+
+/// Headers and lists of all cells.
+struct Lists {
+    headers: Vec<Header>,
+    runs: Vec<Run>,
+    /// Of [`CELLS`] cells each.
+    records: Vec<Vec<Record>>,
+    kinds: Kinds,
+}
+
+impl Lists {
+    fn of(&self, cell: usize) -> &[Record] {
+        let run = self.runs[cell];
+        &self.records[cell / CELLS][run.start as usize..][..run.length as usize]
+    }
+}
+
+/// Primitives that the cells hold: triangles that block light and are whole.
+pub fn is_plain(scene: &Scene, primitive: PrimitiveIndex) -> bool {
+    !scene.is_curved(primitive)
+        && scene.object(primitive).shadowing.casts
+        && !scene.is_transparent(primitive)
+        && scene.masked(primitive).is_none()
+}
+
+/// The resolution for a number of receivers: some four of them in a cell where they are close together.
+pub fn automatic_resolution(receivers: usize) -> u32 {
+    let wanted = (receivers as f64 * 0.5).sqrt();
+    (wanted as u32).next_power_of_two().clamp(16, 2048)
+}
+
+impl Certified<'_> {
+    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between `points[i]` and the light.
+    /// With fewer cells than asked for where their lists would need more memory than there may be.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a resolution outside 1 to 4096, more than 2^28 triangles, or too little memory for what does not
+    /// depend on the resolution.
+    pub fn occluded(
+        &self,
+        points: &[SurfacePoint],
+        rounded: &RoundedPoints,
+        resolution: u32,
+        occluded: &mut [bool],
+    ) -> Result<Work> {
+        let _floats = StandardFloats::new();
+        if !(1..=MOST_CELLS).contains(&resolution) {
+            let expected = format!("expected 1 to {MOST_CELLS}");
+            return Err(Error::Usage(format!("{resolution} cells along an edge; {expected}")));
+        }
+        if self.scene.triangles.len() >= Item::MOST {
+            return Err(Error::Usage(format!("more than {} triangles around a light", Item::MOST - 1)));
+        }
+        let fixed = self.scene.vertices.len() * size_of::<Projected>()
+            + self.scene.triangles.len()
+            + points.len() * (size_of::<u32>() + size_of::<f32>() + 3);
+        let memory = self.memory.beside("the projection of all vertices and points", fixed as u64)?;
+        let mut resolution = resolution;
+        loop {
+            if let Some(work) = self.at_resolution(points, rounded, resolution, memory, occluded) {
+                return Ok(Work { bytes: work.bytes + fixed as u64, ..work });
+            }
+            if resolution == 1 {
+                return memory
+                    .check("lists of triangles around a light", MOST_ENTRIES * size_of::<Entry>() as u64)
+                    .map(|()| unreachable!("one cell a side has room for six entries a triangle"));
+            }
+            resolution = resolution.div_ceil(2);
+        }
+    }
+
+    /// The same, or `None` if the lists of that many cells are too long.
+    fn at_resolution(
+        &self,
+        points: &[SurfacePoint],
+        rounded: &RoundedPoints,
+        resolution: u32,
+        memory: MemoryLimit,
+        occluded: &mut [bool],
+    ) -> Option<Work> {
+        let scene = self.scene;
+        let projector = Projector::new(self.light, resolution);
+        let mut filed = Filed::new(self.set, &projector, scene, points, rounded);
+        let projected: Vec<Projected> =
+            scene.vertices.par_iter().in_standard_floats().map(|v| projector.project(v.to_array())).collect();
+        let facing = self.facing(&projector, &projected);
+        let caster = Caster {
+            scene,
+            adjacency: self.adjacency,
+            projector,
+            tiles: &filed.tiles,
+            horizon: &filed.horizon,
+            projected: &projected,
+            facing: &facing,
+        };
+        let cell_bytes =
+            filed.tiles.cells() * (size_of::<Header>() + size_of::<Run>() + 2 * size_of::<u32>());
+        let most = (memory.left().saturating_sub(cell_bytes as u64) / 2 / size_of::<Entry>() as u64)
+            .min(MOST_ENTRIES);
+        let budget = Budget::new(most as usize);
+        let bins = self.cast(&caster, &budget)?;
+        let lists = lists(&filed, &bins);
+        let entry_bytes: usize = bins.iter().map(Bins::bytes).sum();
+        let record_bytes: usize = lists.records.iter().map(|r| r.capacity() * size_of::<Record>()).sum();
+        let mut work = Work {
+            resolution,
+            cells: filed.tiles.cells() as u64,
+            touched: lists.kinds.touched,
+            once: lists.kinds.once,
+            covered: lists.kinds.covered,
+            entries: bins.iter().map(|bins| bins.count() as u64).sum(),
+            bytes: (cell_bytes + entry_bytes + record_bytes) as u64,
+            ..Work::default()
+        };
+        drop(bins);
+        self.leave_open_what_is_not_cast(&mut filed, rounded, &facing);
+        let undecided = self.by_headers(&projector, &filed, &lists, occluded);
+        work.by_header = (points.len() - undecided.len()) as u64;
+        work.counters.cells = points.len() as u64;
+        work.counters.lists = undecided.len() as u64;
+        let space = LightSpace::from(self.light);
+        let walk =
+            Walk { scene, projector: &projector, space: &space, points, rounded, projected: &projected };
+        work.counters += self.by_lists(&walk, &lists, undecided, occluded);
+        Some(work)
+    }
+
+    /// How all triangles face the light, those that are not cast here as nothing.
+    fn facing(&self, projector: &Projector, projected: &[Projected]) -> Vec<Facing> {
+        let scene = self.scene;
+        let of = |vertices: [u32; 3]| {
+            let corners = vertices.map(|vertex| projected[vertex as usize]);
+            facing(projector, corners, || vertices.map(|vertex| scene.vertices[vertex as usize]))
+        };
+        let triangles = scene.triangles.par_iter().in_standard_floats();
+        if self.all_are_cast() {
+            return triangles.map(|triangle| of(triangle.vertices)).collect();
+        }
+        let numbers = (0..scene.triangles.len() as u32).into_par_iter().in_standard_floats();
+        let of_plain = |number: u32| match is_plain(scene, number) {
+            true => of(scene.triangles[number as usize].vertices),
+            false => Facing::Nothing,
+        };
+        numbers.map(of_plain).collect()
+    }
+
+    /// Whether everything in the scene is a triangle that blocks light and is whole.
+    fn all_are_cast(&self) -> bool {
+        let scene = self.scene;
+        let casts = |object: &crate::scene::Object| object.shadowing.casts;
+        scene.curved.is_empty()
+            && scene.alpha_masks.is_empty()
+            && scene.objects.iter().all(casts)
+            && scene.materials.iter().all(|material| material.transmission.is_none())
+    }
+
+    fn cast<'b>(&self, caster: &Caster<'_>, budget: &'b Budget) -> Option<Vec<Bins<'b>>> {
+        let count = self.scene.triangles.len();
+        let next = AtomicUsize::new(0);
+        let worker = |_| {
+            let _floats = StandardFloats::new();
+            let mut bins = Bins::new(caster.tiles.cells(), budget);
+            loop {
+                let first = next.fetch_add(TRIANGLES, Relaxed);
+                if first >= count || bins.overflowed {
+                    return bins;
+                }
+                let end = count.min(first + TRIANGLES);
+                caster::cast(self.set, caster, first as u32..end as u32, &mut bins);
+            }
+        };
+        let workers = rayon::current_num_threads().min(MOST_WORKERS);
+        let bins: Vec<_> = (0..workers).into_par_iter().with_max_len(1).map(worker).collect();
+        bins.iter().all(|bins| !bins.overflowed).then_some(bins)
+    }
+
+    /// Certificates light what lies on a triangle that is cast; all else asks the lists.
+    fn leave_open_what_is_not_cast(&self, filed: &mut Filed, rounded: &RoundedPoints, facing: &[Facing]) {
+        let is_bare = |&primitive: &PrimitiveIndex| primitive == RoundedPoints::NO_PRIMITIVE;
+        if self.all_are_cast() && !rounded.primitives.par_iter().any(|primitive| is_bare(primitive)) {
+            return;
+        }
+        (&mut filed.depths, &rounded.primitives).into_par_iter().for_each(|(depth, primitive)| {
+            if facing.get(*primitive as usize).is_none_or(|&facing| facing == Facing::Nothing) {
+                *depth = f32::NAN;
+            }
+        });
+    }
+
+    /// Answers by the two depths of each cell, and returns those that they leave open, by cell: the cell in the
+    /// upper half.
+    fn by_headers(
+        &self,
+        projector: &Projector,
+        filed: &Filed,
+        lists: &Lists,
+        occluded: &mut [bool],
+    ) -> Vec<u64> {
+        let size = self.size();
+        let open = |(chunk, ((cells, depths), occluded)): (usize, ((&[u32], &[f32]), &mut [bool]))| {
+            let _floats = StandardFloats::new();
+            let mut undecided = [false; CHUNK];
+            let undecided = &mut undecided[..cells.len()];
+            headers::decide(self.set, projector, size, &lists.headers, cells, depths, occluded, undecided);
+            let mut open = Vec::new();
+            for (i, eight) in undecided.chunks(8).enumerate() {
+                // Mostly none of them.
+                if eight.contains(&true) {
+                    let places = (8 * i..).zip(eight).filter(|(_, undecided)| **undecided);
+                    open.extend(places.map(|(i, _)| u64::from(cells[i]) << 32 | (chunk * CHUNK + i) as u64));
+                }
+            }
+            open
+        };
+        let chunks = filed.cells.par_chunks(CHUNK).zip(filed.depths.par_chunks(CHUNK));
+        let open: Vec<Vec<u64>> = chunks.zip(occluded.par_chunks_mut(CHUNK)).enumerate().map(open).collect();
+        let mut open = open.concat();
+        debug_assert!(open.iter().all(|query| query >> 32 != u64::from(OPEN)));
+        open.par_sort_unstable();
+        open
+    }
+
+    /// At least every coordinate of a point on a triangle.
+    fn size(&self) -> f32 {
+        let largest = |v: &Vec3| v.abs().max_element();
+        self.scene.vertices.par_iter().map(largest).reduce(|| 0.0, f32::max)
+    }
+
+    fn by_lists(&self, walk: &Walk, lists: &Lists, undecided: Vec<u64>, occluded: &mut [bool]) -> Counters {
+        let cells: Vec<&[u64]> = undecided.chunk_by(|a, b| a >> 32 == b >> 32).collect();
+        let answer = |cells: &[&[u64]]| {
+            let _floats = StandardFloats::new();
+            let (mut dark, mut counters) = (Vec::new(), Counters::default());
+            for queries in cells {
+                let records = lists.of((queries[0] >> 32) as usize);
+                for portion in queries.chunks(LANES) {
+                    let numbers: [u32; LANES] =
+                        std::array::from_fn(|i| portion.get(i).map_or(0, |query| *query as u32));
+                    let numbers = &numbers[..portion.len()];
+                    walk::walk(self.set, walk, records, numbers, &mut dark, &mut counters);
+                }
+            }
+            (dark, counters)
+        };
+        let found: Vec<_> = cells.par_chunks(256).map(answer).collect();
+        let mut all = Counters::default();
+        for (dark, counters) in found {
+            all += counters;
+            for query in dark {
+                occluded[query as usize] = true;
+            }
+        }
+        all
+    }
+}
+
+/// Lists of all cells out of what was cast.
+fn lists(filed: &Filed, bins: &[Bins]) -> Lists {
+    let cells = filed.tiles.cells();
+    let mut headers = vec![Header::EMPTY; cells];
+    let mut runs = vec![Run::default(); cells];
+    let part = |(part, (headers, runs)): (usize, (&mut [Header], &mut [Run]))| {
+        let _floats = StandardFloats::new();
+        let (mut records, mut entries, mut kinds) = (Vec::new(), Vec::new(), Kinds::default());
+        for (i, (header, run)) in headers.iter_mut().zip(runs).enumerate() {
+            let cell = part * CELLS + i;
+            entries.clear();
+            bins.iter().for_each(|bins| bins.gather(cell, &mut entries));
+            (*header, *run) =
+                certificate::certify(&mut entries, filed.horizon.of(cell), &mut records, &mut kinds);
+        }
+        (records, kinds)
+    };
+    let parts = headers.par_chunks_mut(CELLS).zip(runs.par_chunks_mut(CELLS)).enumerate();
+    let parts: Vec<(Vec<Record>, Kinds)> = parts.map(part).collect();
+    let mut kinds = Kinds::default();
+    parts.iter().for_each(|(_, of_part)| kinds += *of_part);
+    let records = parts.into_iter().map(|(records, _)| records).collect();
+    Lists { headers, runs, records, kinds }
+}

@@ -1,0 +1,206 @@
+//! Receivers filed in cells: where anybody asks, and how far away the farthest in each cell is.
+
+use super::dispatch::for_instruction_sets;
+use super::projection::{Projected, Projector, cell_and_border};
+use super::tiles::{Marks, TileGrid, Tiles};
+use crate::float_environment::StandardFloats;
+use crate::geometry::LightSpace;
+use crate::geometry::batch::InstructionSet;
+use crate::geometry::occlusion::PreciseQuery;
+use crate::scene::Scene;
+use crate::shadow::light_buffer::cells::Cells;
+use crate::visibility::{RoundedPoints, SurfacePoint};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Receivers of a task.
+pub(super) const CHUNK: usize = 4096;
+
+/// In place of a cell, for a receiver that f32 leaves open, and in the end for one in the light itself.
+pub(super) const OPEN: u32 = u32::MAX;
+
+/// How much farther than its farthest receiver a cell is looked into, as a share of w: certificates hold only if
+/// nothing is withheld before their surface ends.
+const MARGIN: f32 = 63.0 / 64.0;
+
+/// For each cell the w beyond which nobody asks, as a key that is 0 where nobody does and grows with the distance.
+pub(super) struct Horizon(Vec<u32>);
+
+impl Horizon {
+    /// The key of a w, not negative.
+    #[inline(always)]
+    pub fn key(w: f32) -> u32 {
+        !w.to_bits()
+    }
+
+    /// The keys of a block of cells.
+    #[inline(always)]
+    pub fn block(&self, first: usize) -> &[u32; super::tiles::BLOCK] {
+        self.0[first..first + super::tiles::BLOCK].try_into().expect("a block")
+    }
+
+    /// What is withheld from a cell has at most this w.
+    pub fn of(&self, cell: usize) -> f32 {
+        match self.0[cell] {
+            0 => f32::INFINITY,
+            key => f32::from_bits(!key),
+        }
+    }
+}
+
+/// Receivers by cell.
+pub(super) struct Filed {
+    pub tiles: Tiles,
+    /// The cell that each one's exact point lies in, or [`OPEN`] for one in the light.
+    pub cells: Vec<u32>,
+    /// w of each, wrong by [`Projector::error_of`]; NaN where f32 cannot hold it.
+    pub depths: Vec<f32>,
+    pub horizon: Horizon,
+}
+
+impl Filed {
+    /// Files all receivers.
+    pub fn new(
+        set: InstructionSet,
+        projector: &Projector,
+        scene: &Scene,
+        points: &[SurfacePoint],
+        rounded: &RoundedPoints,
+    ) -> Filed {
+        let grid = TileGrid::new(projector.resolution);
+        let mut cells = vec![0; points.len()];
+        let mut places = vec![0; points.len()];
+        let mut depths = vec![0.0; points.len()];
+        let marks = Marks::new(&grid);
+        (points.par_chunks(CHUNK), cells.par_chunks_mut(CHUNK))
+            .into_par_iter()
+            .zip(places.par_chunks_mut(CHUNK))
+            .zip(depths.par_chunks_mut(CHUNK))
+            .enumerate()
+            .for_each(|(chunk, (((points, tiles), places), depths))| {
+                let _floats = StandardFloats::new();
+                let rounded = rounded.slice(chunk * CHUNK, points.len());
+                locate(set, projector, &grid, rounded, tiles, places, depths);
+                let mut last = OPEN;
+                for (i, point) in points.iter().enumerate() {
+                    if tiles[i] == OPEN {
+                        (tiles[i], places[i], depths[i]) = locate_exactly(projector, &grid, scene, point);
+                    }
+                    if tiles[i] != last {
+                        last = tiles[i];
+                        if last != OPEN {
+                            marks.mark(last);
+                        }
+                    }
+                }
+            });
+        let tiles = Tiles::new(grid, &marks);
+        let horizon: Vec<AtomicU32> = (0..tiles.cells()).map(|_| AtomicU32::new(0)).collect();
+        (cells.par_chunks_mut(CHUNK), places.par_chunks(CHUNK))
+            .into_par_iter()
+            .zip(depths.par_chunks(CHUNK))
+            .for_each(|((cells, places), depths)| {
+                let _floats = StandardFloats::new();
+                file(&tiles, &horizon, cells, places, depths);
+            });
+        let horizon = Horizon(horizon.into_iter().map(AtomicU32::into_inner).collect());
+        Filed { tiles, cells, depths, horizon }
+    }
+}
+
+/// Makes cells of tiles and places, and raises the horizon. Neighbours mostly share a cell.
+fn file(tiles: &Tiles, horizon: &[AtomicU32], cells: &mut [u32], places: &[u8], depths: &[f32]) {
+    let raise = |cell: u32, w: f32| {
+        let key = Horizon::key(w * MARGIN);
+        let horizon = &horizon[cell as usize];
+        if horizon.load(Relaxed) < key {
+            horizon.fetch_max(key, Relaxed);
+        }
+    };
+    let (mut tile, mut first) = (OPEN, 0);
+    let (mut cell, mut farthest) = (OPEN, f32::INFINITY);
+    for (i, &w) in depths.iter().enumerate() {
+        if cells[i] == OPEN {
+            continue;
+        }
+        if cells[i] != tile {
+            tile = cells[i];
+            first = tiles.first_of(tile).expect("a marked tile");
+        }
+        cells[i] = first + u32::from(places[i]);
+        // What is not known is as far as can be.
+        let w = if w > 0.0 { w } else { 0.0 };
+        if cells[i] != cell {
+            if cell != OPEN {
+                raise(cell, farthest);
+            }
+            (cell, farthest) = (cells[i], w);
+        } else if w < farthest {
+            farthest = w;
+        }
+    }
+    if cell != OPEN {
+        raise(cell, farthest);
+    }
+}
+
+for_instruction_sets! {
+    fn locate = locate_body, (
+        projector: &Projector,
+        grid: &TileGrid,
+        points: [&[f32]; 3],
+        tiles: &mut [u32],
+        places: &mut [u8],
+        depths: &mut [f32],
+    )
+}
+
+/// Tile, place and w of points whose cell is certain; the tile of others is [`OPEN`].
+#[inline(always)]
+fn locate_body(
+    projector: &Projector,
+    grid: &TileGrid,
+    points: [&[f32]; 3],
+    tiles: &mut [u32],
+    places: &mut [u8],
+    depths: &mut [f32],
+) {
+    let count = tiles.len();
+    let [x, y, z] = points.map(|coordinate| &coordinate[..count]);
+    let (places, depths) = (&mut places[..count], &mut depths[..count]);
+    for i in 0..count {
+        let p = projector.project([x[i], y[i], z[i]]);
+        let size = x[i].abs().max(y[i].abs()).max(z[i].abs());
+        let delta = projector.delta_of(size, p.w);
+        let ((column, du), (row, dv)) = (cell_and_border(p.u), cell_and_border(p.v));
+        let certain = (p.side != Projected::NOWHERE)
+            & (du.abs() > delta)
+            & (dv.abs() > delta)
+            & (column < projector.resolution)
+            & (row < projector.resolution);
+        tiles[i] = if certain { grid.tile(p.side, column, row) } else { OPEN };
+        places[i] = TileGrid::place(column, row) as u8;
+        depths[i] = p.w;
+    }
+}
+
+/// Tile, place and w of a point by its exact position; [`OPEN`] if that is the light.
+#[cold]
+fn locate_exactly(
+    projector: &Projector,
+    grid: &TileGrid,
+    scene: &Scene,
+    point: &SurfacePoint,
+) -> (u32, u8, f32) {
+    let space = LightSpace::from(projector.light);
+    let query = PreciseQuery::new(&space, point.position, || point.exact(scene));
+    let Some((at, _)) = Cells::Cube.locate(&space, point.position, projector.resolution, &query) else {
+        return (OPEN, 0, f32::NAN);
+    };
+    let w = (1.0 / at.z_low) as f32;
+    // Together with its rounding that is within 3 roundoffs.
+    let is_known = at.z_high <= at.z_low * (1.0 + 1e-7) && w > 8.7e-19 && w < 1.1e18;
+    let tile = grid.tile(at.side as u32, at.column, at.row);
+    let place = TileGrid::place(at.column, at.row) as u8;
+    (tile, place, if is_known { w } else { f32::NAN })
+}

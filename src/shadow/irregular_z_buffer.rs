@@ -1,0 +1,119 @@
+//! The irregular z-buffer: receivers of one view are filed around a light, and occluders cast over them object by object
+//! (Johnson et al. 2005, Aila and Laine 2004). For a view that is drawn once.
+//!
+//! All is made anew for the points of each call, so that nothing is made where nobody asks: the more points come
+//! together, the better. Triangles that are whole go through [certified cells](super::certified). What has holes, is
+//! curved or lets light through is rare and has a light buffer of its own, where the scene has such.
+//! Under a light infinitely far away that light buffer has everything.
+
+use super::certified::{Certified, automatic_resolution};
+use super::light_buffer::LightBuffer;
+use super::{
+    Basis, Batching, BuildInput, Counters, Crossings, Lights, Resolution, ShadowTester, TesterEntry,
+};
+use crate::error::Result;
+use crate::geometry::LightPosition;
+use crate::geometry::batch::InstructionSet;
+use crate::visibility::{RoundedPoints, SurfacePoint};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+/// `irregular-z-buffer` in the registry.
+pub const ENTRY: TesterEntry = TesterEntry {
+    name: "irregular-z-buffer",
+    basis: Basis::Exact,
+    lights: Lights::All,
+    build: &|input| Ok(Box::new(IrregularZBuffer::new(input, InstructionSet::best())?)),
+    expected_tests: |_, queries| 10.0 * queries,
+};
+
+/// One light over a scene; what belongs to a view is made when its points come.
+pub struct IrregularZBuffer<'a> {
+    /// Triangles that are whole, under a light at a point.
+    whole: Option<Certified<'a>>,
+    resolution: Resolution,
+    /// Everything else that is cast.
+    rest: Option<LightBuffer<'a>>,
+    /// The most memory that a view has needed so far.
+    bytes: AtomicU64,
+}
+
+impl<'a> IrregularZBuffer<'a> {
+    /// Prepares what does not depend on the view; `instruction_set` must be available.
+    ///
+    /// # Errors
+    /// Those of a light buffer, where one is needed.
+    pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> Result<IrregularZBuffer<'a>> {
+        let (scene, index) = (input.scene, input.index);
+        let (whole, rest) = match input.light {
+            LightPosition::Towards(_) => (None, Some(index)),
+            LightPosition::At(light) => {
+                let adjacency = index.adjacency(scene);
+                let memory = input.memory;
+                let whole = Certified { scene, adjacency, light, set: instruction_set, memory };
+                (Some(whole), index.beside_whole_triangles(scene))
+            }
+        };
+        let rest = rest.map(|index| LightBuffer::new(&BuildInput { index, ..*input })).transpose()?;
+        Ok(IrregularZBuffer { whole, resolution: input.resolution, rest, bytes: AtomicU64::new(0) })
+    }
+
+    fn occluded_by_whole(
+        &self,
+        whole: &Certified,
+        points: &[SurfacePoint],
+        answers: &mut [bool],
+    ) -> Result<Counters> {
+        let resolution = match self.resolution {
+            Resolution::Auto => automatic_resolution(points.len()),
+            Resolution::Cells(cells) => cells,
+        };
+        let work = whole.occluded(points, &RoundedPoints::new(points), resolution, answers)?;
+        self.bytes.fetch_max(work.bytes, Relaxed);
+        Ok(work.counters)
+    }
+}
+
+impl ShadowTester for IrregularZBuffer<'_> {
+    fn batching(&self) -> Batching {
+        match self.whole {
+            Some(_) => Batching::Whole,
+            None => Batching::Chunks,
+        }
+    }
+
+    fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        let mut counters = match &self.whole {
+            Some(whole) => self.occluded_by_whole(whole, points, answers)?,
+            None => {
+                answers.fill(false);
+                Counters::default()
+            }
+        };
+        let Some(rest) = &self.rest else { return Ok(counters) };
+        // Who is dark already need not ask.
+        let open: Vec<usize> = (0..points.len()).filter(|&i| !answers[i]).collect();
+        let asked: Vec<SurfacePoint> = open.iter().map(|&i| points[i]).collect();
+        let mut found = vec![false; asked.len()];
+        counters += rest.occluded(&asked, &mut found)?;
+        for (i, occluded) in open.into_iter().zip(found) {
+            answers[i] = occluded;
+        }
+        Ok(counters)
+    }
+
+    fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
+        match &self.rest {
+            Some(rest) => rest.crossed(points, crossings),
+            None => {
+                points.iter().for_each(|_| crossings.push([]));
+                Ok(Counters::default())
+            }
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        let adjacency = self.whole.as_ref().map_or(0, |whole| whole.adjacency.bytes());
+        let rest = self.rest.as_ref().map_or(0, |rest| rest.bytes());
+        adjacency + rest + self.bytes.load(Relaxed) as usize
+    }
+}
