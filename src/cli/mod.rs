@@ -3,6 +3,7 @@
 //! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
 //! right, 1 done and a native answer is wrong, 2 usage or input error. Signals: `signals.rs`.
 
+mod bench;
 mod counts;
 mod fuzz;
 mod generate;
@@ -42,6 +43,8 @@ enum Command {
     Render(render::Args),
     /// Hold every shadow tester against exact truth and against Embree, pixel by pixel
     Validate(validate::Args),
+    /// Measure every shadow tester, with every parameter, against Embree at its best: speed, error and memory
+    Bench(bench::Args),
     /// Ask one pixel and one light of every shadow tester, in bits, and say who is wrong and why
     Replay(replay::Args),
     /// Say what a scene holds and what it calls for
@@ -70,6 +73,7 @@ pub fn run() -> ExitCode {
     let outcome = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Validate(args) => validate::run(&args),
+        Command::Bench(args) => bench::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Generate(args) => generate::run(&args),

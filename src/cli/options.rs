@@ -40,7 +40,7 @@ pub struct ViewOptions {
 }
 
 /// Lights in place of the scene's.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub struct LightOptions {
     /// A point light here instead of the scene's lights; may be repeated
     #[arg(long = "light", value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true)]
@@ -312,7 +312,7 @@ fn parse_point(text: &str) -> std::result::Result<Vec3, String> {
     }
 }
 
-fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
+pub fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {
     match text.parse() {
         _ if text == "auto" => Ok(Resolution::Auto),
         Ok(cells @ 1..=crate::shadow::light_buffer::MOST_CELLS) => Ok(Resolution::Cells(cells)),
@@ -363,7 +363,7 @@ fn parse_stops(text: &str) -> std::result::Result<f32, String> {
     }
 }
 
-fn parse_epsilon(text: &str) -> std::result::Result<f32, String> {
+pub fn parse_epsilon(text: &str) -> std::result::Result<f32, String> {
     match text.parse() {
         Ok(epsilon) if (0.0..0.5).contains(&epsilon) => Ok(epsilon),
         _ => Err("expected a number in [0, 0.5)".into()),

@@ -40,7 +40,21 @@ impl View {
         limit: MemoryLimit,
         messages: Messages,
     ) -> Result<View> {
-        let (mut scene, files) = formats::load_with_files(&options.scene, limit)?;
+        let (scene, files) = formats::load_with_files(&options.scene, limit)?;
+        View::of(scene, files, options, lights, messages)
+    }
+
+    /// The same of a scene that is there already.
+    ///
+    /// # Errors
+    /// As [`load`](View::load), but for the loader's.
+    pub fn of(
+        mut scene: Scene,
+        files: SceneFiles,
+        options: &ViewOptions,
+        lights: &LightOptions,
+        messages: Messages,
+    ) -> Result<View> {
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
         }

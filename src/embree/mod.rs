@@ -30,7 +30,7 @@ pub use device::Device;
 pub use holes::{HoleMask, HoleWrap, Holes};
 pub use mode::EmbreeMode;
 pub use query::{CheckedRays, Coherence, Denormals, Grouping, PacketWidth, QueryOptions, ShadowRay};
-pub use scene::{BuildQuality, EmbreeScene, Receiver, Robustness, SceneOptions, SceneParts};
+pub use scene::{BuildQuality, EmbreeScene, Receiver, Robustness, SceneBuffers, SceneOptions, SceneParts};
 
 use std::ffi::c_char;
 

@@ -1,6 +1,7 @@
 //! Triangles and curved surfaces, built by Embree.
 
 use std::ptr::{self, NonNull};
+use std::sync::Arc;
 
 use super::curved::CurvedSurfaces;
 use super::{Device, Holes, call, ffi};
@@ -69,20 +70,46 @@ pub struct SceneParts<'a> {
     pub transparent: &'a [bool],
 }
 
+/// What scenes are made of, checked and as Embree reads it: any number of scenes may refer to it.
+#[derive(Debug)]
+pub struct SceneBuffers {
+    /// Three floats a vertex and one that is padding: Embree reads 16 bytes at the last vertex.
+    vertices: Vec<f32>,
+    triangles: Vec<[u32; 3]>,
+    /// What the filter looks at.
+    holes: Option<Holes>,
+    /// For each triangle whether light passes through it, if it passes through any: the filter looks at this too.
+    transparent: Option<Vec<bool>>,
+    /// What the callbacks look at.
+    curved: CurvedSurfaces,
+}
+
+impl SceneBuffers {
+    /// Copies what is given.
+    ///
+    /// # Errors
+    ///
+    /// As [`EmbreeScene::of_parts`], but for what Embree reports.
+    pub fn new(parts: SceneParts<'_>) -> Result<SceneBuffers> {
+        check(&parts)?;
+        let SceneParts { vertices, triangles, holes, curved, transparent } = parts;
+        let mut padded = Vec::with_capacity(3 * vertices.len() + 1);
+        padded.extend_from_slice(vertices.as_flattened());
+        padded.push(0.0);
+        let (flat, round) = transparent.split_at(transparent.len().min(triangles.len()));
+        let curved = CurvedSurfaces::new(curved, round)?;
+        // A filter that never rejects anything would cost time all the same.
+        let transparent = flat.contains(&true).then(|| flat.to_vec());
+        Ok(SceneBuffers { vertices: padded, triangles: triangles.to_vec(), holes, transparent, curved })
+    }
+}
+
 /// Primitives that Embree has built and that any number of threads may query at once.
 #[derive(Debug)]
 pub struct EmbreeScene {
     scene: NonNull<ffi::LbScene>,
-    /// Three floats a vertex and one that is padding: Embree reads 16 bytes at the last vertex. Embree refers to
-    /// these buffers, so they live, unchanged, until the scene is freed.
-    vertices: Vec<f32>,
-    triangles: Vec<[u32; 3]>,
-    /// What the filter looks at; Embree refers to it too.
-    _holes: Option<Holes>,
-    /// For each triangle whether light passes through it, if it passes through any: the filter looks at this too.
-    _transparent: Option<Vec<bool>>,
-    /// What the callbacks look at.
-    curved: CurvedSurfaces,
+    /// Embree refers to these, so they live, unchanged, until the scene is freed.
+    buffers: Arc<SceneBuffers>,
     receiver: Receiver,
     /// What the device's memory grew by.
     embree_bytes: usize,
@@ -118,17 +145,20 @@ impl EmbreeScene {
     /// As there; holes or transparency of another number of primitives, a curved surface beyond Embree's range, or
     /// an Embree that cannot have curved ones.
     pub fn of_parts(device: &Device, parts: SceneParts<'_>, options: SceneOptions) -> Result<EmbreeScene> {
-        check(&parts)?;
-        let SceneParts { vertices, triangles, holes, curved, transparent } = parts;
-        let mut padded = Vec::with_capacity(3 * vertices.len() + 1);
-        padded.extend_from_slice(vertices.as_flattened());
-        padded.push(0.0);
-        let (vertices, triangles) = (padded, triangles.to_vec());
-        let (flat, round) = transparent.split_at(transparent.len().min(triangles.len()));
-        let curved = CurvedSurfaces::new(curved, round)?;
-        // A filter that never rejects anything would cost time all the same.
-        let transparent = flat.contains(&true).then(|| flat.to_vec());
+        EmbreeScene::of_buffers(device, &Arc::new(SceneBuffers::new(parts)?), options)
+    }
 
+    /// Builds what has been checked and copied before.
+    ///
+    /// # Errors
+    ///
+    /// Whatever Embree reports, or that it cannot have curved surfaces.
+    pub fn of_buffers(
+        device: &Device,
+        buffers: &Arc<SceneBuffers>,
+        options: SceneOptions,
+    ) -> Result<EmbreeScene> {
+        let SceneBuffers { vertices, triangles, holes, transparent, curved } = &**buffers;
         let memory = device.lock_memory();
         let before = device.bytes()?;
         let hole_view = holes.as_ref().map(Holes::as_ffi);
@@ -144,8 +174,8 @@ impl EmbreeScene {
         };
         let mut scene = ptr::null_mut();
         // SAFETY: the device lives; the buffers hold as many elements as said, padding included, all indices are in
-        // range, a `bool` is a byte that is 0 or 1, curved surfaces are of known kinds, and all of them move into the
-        // scene beside the handle that refers to their heap memory, as the holes do, which are checked; the two
+        // range, a `bool` is a byte that is 0 or 1, curved surfaces are of known kinds, and the
+        // scene holds on to all of them beside the handle that refers to them, as to the holes, which are checked; the two
         // pointers to be filled are valid for writes.
         call(|error| unsafe {
             ffi::lb_scene_new(
@@ -162,11 +192,7 @@ impl EmbreeScene {
         drop(memory);
         Ok(EmbreeScene {
             scene,
-            vertices,
-            triangles,
-            _holes: holes,
-            _transparent: transparent,
-            curved,
+            buffers: buffers.clone(),
             receiver: options.receiver,
             embree_bytes,
             device: device.clone(),
@@ -176,14 +202,14 @@ impl EmbreeScene {
     /// Memory in bytes: what Embree allocated to build the scene and still holds, and the buffers it refers to.
     pub fn bytes(&self) -> usize {
         self.embree_bytes
-            + size_of_val(&self.vertices[..])
-            + size_of_val(&self.triangles[..])
-            + size_of_val(self.curved.as_slice())
+            + size_of_val(&self.buffers.vertices[..])
+            + size_of_val(&self.buffers.triangles[..])
+            + size_of_val(self.buffers.curved.as_slice())
     }
 
     /// How many primitives there are, so that the one that a ray excludes can be checked; `None` if none is excluded.
     pub(super) fn excludable(&self) -> Option<usize> {
-        let count = self.triangles.len() + self.curved.as_slice().len();
+        let count = self.buffers.triangles.len() + self.buffers.curved.as_slice().len();
         (self.receiver == Receiver::Excluded).then_some(count)
     }
 

@@ -1,5 +1,8 @@
-//! Running testers over many queries and timing what they do. Each paper that is reproduced has a room.
+//! Running testers over many queries and timing what they do. Each paper that is reproduced has a room, and so has
+//! `bench`.
 
+mod answer_view;
+pub mod bench;
 pub mod fit;
 pub mod haines_greenberg;
 pub mod raghuvanshi_dhande;
@@ -7,6 +10,7 @@ mod repeated;
 mod run;
 mod sample;
 
+pub use answer_view::answer_view;
 pub use repeated::Repeated;
 pub use run::{Answers, Question, Timed, answer, soft_light, timed};
 pub use sample::Errors;

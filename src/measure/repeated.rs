@@ -20,6 +20,18 @@ impl Repeated {
         self.seconds.len() < most as usize && self.seconds.iter().sum::<f64>() < Repeated::ENOUGH_SECONDS
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.seconds.len()
+    }
+
+    /// The shortest and the longest of the times; 0 if it was never done.
+    pub fn spread(&self) -> [f64; 2] {
+        let shortest = self.seconds.iter().copied().reduce(f64::min);
+        let longest = self.seconds.iter().copied().reduce(f64::max);
+        [shortest.unwrap_or(0.0), longest.unwrap_or(0.0)]
+    }
+
     /// The middle one of the times, of an even number the mean of the two; 0 if it was never done.
     pub fn median(&self) -> f64 {
         let mut sorted = self.seconds.clone();
@@ -45,6 +57,7 @@ mod tests {
         assert_eq!(repeated(&[]).median(), 0.0);
         assert_eq!(repeated(&[3.0, 1.0, 2.0]).median(), 2.0);
         assert_eq!(repeated(&[4.0, 1.0]).median(), 2.5);
+        assert_eq!((repeated(&[4.0, 1.0]).spread(), repeated(&[]).spread()), ([1.0, 4.0], [0.0, 0.0]));
     }
 
     #[test]

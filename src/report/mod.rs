@@ -1,6 +1,7 @@
 //! What a run says: JSON documents, tables for people, image planes and previews. Each paper that is reproduced has
-//! a room.
+//! a room, and so has `bench`.
 
+pub mod bench;
 pub mod differential;
 pub mod haines_greenberg;
 pub mod hard_case_picture;

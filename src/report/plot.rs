@@ -22,6 +22,8 @@ pub struct Series {
 pub enum Stroke {
     /// With a mark at each.
     Solid,
+    /// Not at all: a mark at each.
+    Marks,
     /// Dotted, with hollow marks.
     Dotted,
     /// Dashed, without marks.
@@ -123,6 +125,10 @@ impl Panel {
                     let marks = series.points.iter().map(|&point| Circle::new(point, 3, colour.filled()));
                     chart.draw_series(marks)?;
                     chart.draw_series(LineSeries::new(series.points.clone(), colour.stroke_width(2)))?
+                }
+                Stroke::Marks => {
+                    let marks = series.points.iter().map(|&point| Circle::new(point, 3, colour.filled()));
+                    chart.draw_series(marks)?
                 }
                 Stroke::Dotted => {
                     let marks = series.points.iter().map(|&point| TriangleMarker::new(point, 5, colour));

@@ -9,9 +9,13 @@
 //! Curved surfaces are a user geometry of Embree's, met by the same rays in double precision (`ffi/README.md`).
 //! Transparent ones and transparent triangles block no ray.
 //!
-//! Each tester has a device and a scene of its own, so that what a mode takes to build is its own too.
+//! Each tester of the registry has a device and a scene of its own, so that what a mode takes to build is its own too.
+//! Where a frame with several lights is timed, one scene serves all of them ([`Hierarchy`]).
 
 mod casters;
+mod hierarchy;
+
+pub use hierarchy::{Hierarchy, Prepared};
 
 use super::{Basis, Build, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry, TracedRay};
 use crate::embree::{Device, EmbreeMode, EmbreeScene, QueryOptions, Receiver, ShadowRay};
@@ -22,7 +26,7 @@ use crate::visibility::{PointSource, SurfacePoint};
 use casters::Casters;
 use glam::Vec3;
 use std::iter;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// `embree` in the registry.
 pub const ROBUST: TesterEntry = TesterEntry {
@@ -83,11 +87,11 @@ const RAYS: usize = 256;
 
 /// An Embree scene and one light.
 pub struct Embree {
-    scene: EmbreeScene,
+    scene: Arc<EmbreeScene>,
     query: QueryOptions,
     light: LightPosition,
     epsilon: f32,
-    casters: Casters,
+    casters: Arc<Casters>,
     receiver: Receiver,
     /// Length of the segments of a light infinitely far away that the epsilon is a share of.
     diameter: f32,
@@ -101,18 +105,9 @@ impl Embree {
     pub fn new(input: &BuildInput, mode: EmbreeMode) -> Result<Embree> {
         let _floats = StandardFloats::new();
         let device = Device::new(input.embree.threads)?;
-        mode.expect_in(&device)?;
-        let scene = casters::build(&device, input.scene, mode.scene)?;
-        let (low, high) = input.index.bounds;
-        Ok(Embree {
-            scene,
-            query: mode.query,
-            light: input.light,
-            epsilon: input.embree.epsilon,
-            casters: Casters::new(input.scene),
-            receiver: mode.scene.receiver,
-            diameter: (high * 0.5 - low * 0.5).length() * 2.0,
-        })
+        let prepared = Prepared::new(input.scene)?;
+        let hierarchy = Hierarchy::new(&device, &prepared, mode)?;
+        Ok(hierarchy.at(input.light, input.embree.epsilon, mode.query))
     }
 
     /// The ray for a point: not normalised, so that 1 is the light, unless that would be beyond Embree's range.

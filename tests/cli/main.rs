@@ -1,5 +1,6 @@
 //! The program as people run it: its options, what it writes where, and how it exits.
 
+mod bench;
 mod embree_modes;
 mod epsilon;
 #[path = "../formats/fixtures.rs"]

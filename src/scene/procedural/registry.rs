@@ -1,7 +1,8 @@
 //! The scenes by name.
 
 use super::{
-    chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen, spd, stack, three_spheres,
+    chessboard, gazebo, glass_leaved_tree, highchair, house_of_cards, kitchen, large, spd, stack,
+    three_spheres,
 };
 use crate::error::{Error, Result};
 use crate::scene::Scene;
@@ -37,8 +38,8 @@ enum Make {
     Sized(fn(u32) -> Result<Scene>),
 }
 
-/// All of them: the environments of the paper in its order, the databases in theirs, and the scenes of the t-buffer
-/// paper.
+/// All of them: the environments of the paper in its order, the databases in theirs, the scenes of the t-buffer
+/// paper, and large ones.
 pub const BUILTIN: &[Builtin] = &[
     fixed("chessboard", "a game of chess after four moves (figure 5)", chessboard::build),
     fixed("house-of-cards", "forty cards on a polished table (figure 6)", house_of_cards::build),
@@ -75,6 +76,11 @@ pub const BUILTIN: &[Builtin] = &[
         [1, 50, 100_000],
         stack::triangles,
     ),
+    sized("sphereflake", "a fractal of balls, each a closed mesh", [1, 4, 5], large::sphereflake),
+    sized("terrain", "mountains under a low light", [22, 700, 2200], large::terrain),
+    sized("hair-ball", "strands of thin triangles around a ball", [1, 1040, 10_000], large::hair_ball),
+    sized("city", "towers with deep windows in narrow streets", [1, 16, 50], large::city),
+    sized("forest", "trees with every leaf and every needle", [1, 20, 28], large::forest),
 ];
 
 const fn fixed(name: &'static str, summary: &'static str, make: fn() -> Result<Scene>) -> Builtin {

@@ -13,7 +13,7 @@ use super::studio::Studio;
 use crate::scene::{Camera, ImageSize, Material, ObjectInput, Transmission};
 use glam::Vec3;
 
-pub(super) use balls::build as balls;
+pub(super) use balls::{build as balls, directions as ball_directions, turn_to};
 pub(super) use gears::build as gears;
 pub(super) use mountain::build as mount;
 pub(super) use rings::build as rings;

@@ -1,6 +1,6 @@
 //! What every built-in scene must hold.
 
-use super::{BUILTIN, find};
+use super::{BUILTIN, find, large};
 use crate::error::Error;
 use crate::scene::formats::{self, limits};
 use crate::scene::{ImageSize, Scene};
@@ -100,6 +100,7 @@ fn loading_by_name_is_building() {
 /// Triangles, curved surfaces, objects and polygons of a scene by its size factor.
 fn expected(name: &str, size: u32) -> [u64; 4] {
     let n = u64::from(size);
+    let flat = |triangles: u64, objects: u64| [triangles, 0, objects, triangles];
     match name {
         "balls" => {
             let balls = (9u64.pow(size + 1) - 1) / 8;
@@ -123,6 +124,11 @@ fn expected(name: &str, size: u32) -> [u64; 4] {
         }
         "stacked-spheres" => [0, n, n, 0],
         "stacked-triangles" => [n, 0, n, n],
+        "sphereflake" => flat(960 * (9u64.pow(size) - 1) / 8 + 2, 2),
+        "terrain" => flat(2 * n * n, 1),
+        "hair-ball" => flat(64 * 15 * n + 960 + 2, 3),
+        "city" => flat(large::city_triangles(size), n * n + 2),
+        "forest" => flat(large::forest_triangles(size), 2 * n * n + 1),
         _ => panic!("{name}"),
     }
 }
@@ -143,6 +149,28 @@ fn the_databases_have_the_published_counts_and_grow_as_described() {
                 assert_eq!(polygons + curved, published, "{}", builtin.name);
             }
         }
+    }
+}
+
+#[test]
+fn the_large_scenes_have_their_counts_at_every_size() {
+    let standard = [
+        ("sphereflake", 787_202),
+        ("terrain", 980_000),
+        ("hair-ball", 999_362),
+        ("city", 994_850),
+        ("forest", 5_064_032),
+    ];
+    for (name, triangles) in standard {
+        let builtin = find(name).unwrap();
+        let size = builtin.size_factor.unwrap();
+        for factor in [size.smallest, size.smallest + 1, 3.max(size.smallest)] {
+            let scene = builtin.build(Some(factor)).unwrap();
+            let counts = [scene.triangles.len(), scene.curved.len(), scene.objects.len()].map(|n| n as u64);
+            assert_eq!(counts, expected(name, factor)[..3], "{name} {factor}");
+            assert_eq!((scene.lights.len(), scene.cameras.len()), (1, 1));
+        }
+        assert_eq!(expected(name, size.standard)[0], triangles, "{name}");
     }
 }
 

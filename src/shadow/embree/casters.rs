@@ -1,6 +1,6 @@
 //! What of a scene Embree is given, and the numbers that it has there.
 
-use crate::embree::{Device, EmbreeScene, HoleMask, HoleWrap, Holes, SceneOptions, SceneParts, ShadowRay};
+use crate::embree::{HoleMask, HoleWrap, Holes, SceneBuffers, SceneParts, ShadowRay};
 use crate::error::Result;
 use crate::geometry::curved::Shape;
 use crate::scene::{AlphaMask, PrimitiveIndex, Scene, Triangle, Wrap};
@@ -38,8 +38,8 @@ impl Casters {
     }
 }
 
-/// Embree's hierarchy over everything that casts.
-pub(super) fn build(device: &Device, scene: &Scene, options: SceneOptions) -> Result<EmbreeScene> {
+/// Everything that casts, as Embree reads it.
+pub(super) fn buffers(scene: &Scene) -> Result<SceneBuffers> {
     let casts = |object: u32| scene.objects[object as usize].shadowing.casts;
     let vertices: Vec<[f32; 3]> = scene.vertices.iter().map(|v| v.to_array()).collect();
     let casting = |t: &&Triangle| casts(t.object);
@@ -58,7 +58,7 @@ pub(super) fn build(device: &Device, scene: &Scene, options: SceneOptions) -> Re
         curved: &curved,
         transparent: &transparent,
     };
-    EmbreeScene::of_parts(device, parts, options)
+    SceneBuffers::new(parts)
 }
 
 /// The holes of all triangles that cast, if there are any.

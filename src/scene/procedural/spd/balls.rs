@@ -27,7 +27,7 @@ struct Balls {
 }
 
 /// Where the nine stand on a ball whose own back is at -z: three above, six around its equator.
-fn directions() -> [DVec3; 9] {
+pub(in crate::scene::procedural) fn directions() -> [DVec3; 9] {
     // Three close neighbours; on the equator at fifteen degrees to either side of the diagonal's thirty.
     let (low, high) = (libm::sincos(TAU / 24.0), libm::sincos(5.0 * TAU / 24.0));
     let triple = [
@@ -43,7 +43,7 @@ fn directions() -> [DVec3; 9] {
 }
 
 /// The shortest turn that takes z to a direction.
-fn turn_to(direction: DVec3) -> DMat3 {
+pub(in crate::scene::procedural) fn turn_to(direction: DVec3) -> DMat3 {
     // Straight down every turn by half a circle about a level axis is as short; it is the y axis's.
     match direction.z < -1.0 + 1e-9 {
         true => DMat3::from_diagonal(DVec3::new(-1.0, 1.0, -1.0)),

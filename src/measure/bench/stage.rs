@@ -1,0 +1,119 @@
+//! A scene, a view of it, and the shadow queries of each light in every order.
+
+use super::Order;
+use crate::error::Result;
+use crate::geometry::LightPosition;
+use crate::memory::MemoryLimit;
+use crate::scene::{ImageSize, Scene};
+use crate::shadow::{Queries, SceneIndex};
+use crate::visibility::{SurfacePoint, VisibleSurfaces};
+
+/// What all contenders are given.
+pub struct Stage<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// What the arbiter makes use of; contenders make their own within the time that is taken.
+    pub index: SceneIndex,
+    /// Of the image.
+    pub size: ImageSize,
+    /// The queries of each light.
+    pub lights: Vec<LightQueries>,
+    /// What is left for testers.
+    pub memory: MemoryLimit,
+    /// Orders in which there are queries.
+    pub orders: Vec<Order>,
+}
+
+/// The queries of one light.
+pub struct LightQueries {
+    /// Where it is.
+    pub light: LightPosition,
+    /// The points in each order.
+    orders: Vec<Ordered>,
+}
+
+struct Ordered {
+    order: Order,
+    points: Vec<SurfacePoint>,
+    /// For each point its place in rows; nothing for rows.
+    places: Vec<u32>,
+}
+
+impl<'a> Stage<'a> {
+    /// The queries of all lights of a scene.
+    ///
+    /// # Errors
+    /// If they need more memory than there may be.
+    pub fn new(
+        scene: &'a Scene,
+        visible: &VisibleSurfaces,
+        size: ImageSize,
+        orders: &[Order],
+        memory: MemoryLimit,
+    ) -> Result<Stage<'a>> {
+        let queries = visible.points.len() as u64 * scene.lights.len() as u64;
+        let bytes = queries * (size_of::<SurfacePoint>() as u64 + 4) * orders.len() as u64;
+        let memory = memory.beside(format!("the queries of {} lights", scene.lights.len()), bytes)?;
+        let of_light = |light: &crate::scene::Light| {
+            let queries = Queries::new(scene, visible, light);
+            let pixels: Vec<u32> = queries.nodes.iter().map(|&node| visible.pixels[node as usize]).collect();
+            let ordered = |&order: &Order| match order {
+                Order::Rows => Ordered { order, points: queries.points.clone(), places: Vec::new() },
+                Order::Tiles => {
+                    let places = order.of(&pixels, size);
+                    let points = places.iter().map(|&place| queries.points[place as usize]).collect();
+                    Ordered { order, points, places }
+                }
+            };
+            LightQueries { light: light.position(), orders: orders.iter().map(ordered).collect() }
+        };
+        let lights = scene.lights.iter().map(of_light).collect();
+        Ok(Stage { scene, index: SceneIndex::new(scene), size, lights, memory, orders: orders.to_vec() })
+    }
+
+    /// Queries of all lights.
+    pub fn queries(&self) -> u64 {
+        self.lights.iter().map(|light| light.count() as u64).sum()
+    }
+}
+
+impl LightQueries {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.orders.first().map_or(0, |ordered| ordered.points.len())
+    }
+
+    fn ordered(&self, order: Order) -> &Ordered {
+        self.orders.iter().find(|ordered| ordered.order == order).expect("an order that was asked for")
+    }
+
+    /// The points in an order.
+    pub fn points(&self, order: Order) -> &[SurfacePoint] {
+        &self.ordered(order).points
+    }
+
+    /// Any point by its place in rows. Slow unless there are rows.
+    pub fn point(&self, place: u32) -> SurfacePoint {
+        let ordered = &self.orders[0];
+        match ordered.places.is_empty() {
+            true => ordered.points[place as usize],
+            false => {
+                let found = ordered.places.iter().position(|&other| other == place);
+                ordered.points[found.expect("a place of a query")]
+            }
+        }
+    }
+
+    /// Answers that were given in an order, in rows.
+    pub fn in_rows(&self, order: Order, answers: Vec<bool>) -> Vec<bool> {
+        let places = &self.ordered(order).places;
+        if places.is_empty() {
+            return answers;
+        }
+        let mut rows = vec![false; answers.len()];
+        for (&place, answer) in places.iter().zip(answers) {
+            rows[place as usize] = answer;
+        }
+        rows
+    }
+}

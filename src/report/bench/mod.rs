@@ -1,0 +1,6 @@
+//! What `bench` found, in every form that it has.
+
+pub mod csv;
+pub mod document;
+pub mod plots;
+pub mod table;
