@@ -1,6 +1,6 @@
 //! How costs grow: one thing after the other is made larger, and the rest stays.
 
-use super::{Args, USUAL_SIZE, expect_lights, parts};
+use super::{Args, USUAL_SIZE, expect_lights, part};
 use crate::cli::options::LightOptions;
 use crate::cli::progress::Messages;
 use crate::cli::view::View;
@@ -52,6 +52,7 @@ impl Growth {
         self,
         args: &Args,
         scene: &Path,
+        threads: Option<u16>,
         document: &mut Document,
         messages: Messages,
     ) -> Result<()> {
@@ -63,7 +64,7 @@ impl Growth {
                     let options = args.view_options(scene);
                     let view = View::of(made, SceneFiles::default(), &options, &args.lights, messages)?;
                     let triangles = u64::from(view.scene.primitive_count());
-                    self.step(args, &view, triangles, document, messages)?;
+                    self.step((args, threads), &view, triangles, document, messages)?;
                 }
             }
             Growth::Lights => {
@@ -74,7 +75,7 @@ impl Growth {
                     let lights = LightOptions { lights: Vec::new(), rig: Some(count) };
                     let options = args.view_options(scene);
                     let view = View::load(&options, &lights, args.memory_limit(), messages)?;
-                    self.step(args, &view, u64::from(count), document, messages)?;
+                    self.step((args, threads), &view, u64::from(count), document, messages)?;
                 }
             }
             Growth::Pixels => {
@@ -86,7 +87,7 @@ impl Growth {
                         break;
                     }
                     let view = View { size, ..args.view(scene, messages)? };
-                    self.step(args, &view, size.pixels() as u64, document, messages)?;
+                    self.step((args, threads), &view, size.pixels() as u64, document, messages)?;
                 }
             }
         }
@@ -96,17 +97,16 @@ impl Growth {
     /// Measures one; one that would need too much memory is left out.
     fn step(
         self,
-        args: &Args,
+        (args, threads): (&Args, Option<u16>),
         view: &View,
         at: u64,
         document: &mut Document,
         messages: Messages,
     ) -> Result<()> {
         expect_lights(view)?;
-        match parts(args, view, &[Order::Tiles], &args.plan(), messages) {
-            Ok(parts) => {
-                let steps = parts.into_iter().flat_map(|part| part.growth(self.name(), at));
-                document.growth.extend(steps);
+        match part(args, view, threads, &[Order::Tiles], messages) {
+            Ok(part) => {
+                document.growth.extend(part.growth(self.name(), at));
                 Ok(())
             }
             Err(Error::Usage(why)) if why.contains("--memory-limit") => {

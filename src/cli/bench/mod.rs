@@ -90,16 +90,26 @@ pub fn run(args: &Args) -> Result<Outcome> {
     let mut files = FileSet::new();
     files.folder(&args.output)?;
     let mut document = Document::new(&args.plan());
-    for scene in &args.scenes {
-        match args.growth {
-            Some(growth) => growth.measure(args, scene, &mut document, messages)?,
-            None => {
-                let view = args.view(scene, messages)?;
-                output::expect_apart(&args.results(), &view.files)?;
-                let parts = parts(args, &view, &Order::ALL, &args.plan(), messages)?;
-                parts.into_iter().for_each(|part| document.add(part));
+    // Fewest threads first, over all scenes: a pool of Embree's that has grown need not shrink.
+    let threads = args.thread_counts();
+    let mut fewest_first: Vec<usize> = (0..threads.len()).collect();
+    fewest_first.sort_by_key(|&i| threads[i]);
+    let mut parts: Vec<Vec<Part>> = vec![Vec::new(); threads.len()];
+    for i in fewest_first {
+        for scene in &args.scenes {
+            match args.growth {
+                Some(growth) => growth.measure(args, scene, threads[i], &mut document, messages)?,
+                None => {
+                    let view = args.view(scene, messages)?;
+                    output::expect_apart(&args.results(), &view.files)?;
+                    parts[i].push(part(args, &view, threads[i], &Order::ALL, messages)?);
+                }
             }
         }
+    }
+    let mut parts: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
+    for _ in &args.scenes {
+        parts.iter_mut().filter_map(Iterator::next).for_each(|part| document.add(part));
     }
     for (name, svg) in plots::plots(&document)? {
         files.write(&args.output.join(name), |file| file.write_all(svg.as_bytes()))?;
@@ -128,6 +138,14 @@ impl Args {
             epsilons: self.epsilon.clone(),
             orders: orders.to_vec(),
             robust: self.growth.is_none(),
+        }
+    }
+
+    /// Numbers of threads in the order given; `None` for all.
+    fn thread_counts(&self) -> Vec<Option<u16>> {
+        match self.threads.is_empty() {
+            true => vec![None],
+            false => self.threads.iter().map(|&threads| Some(threads)).collect(),
         }
     }
 
@@ -168,32 +186,27 @@ fn expect_lights(view: &View) -> Result<()> {
     }
 }
 
-/// A view with each number of threads, in the order given.
-fn parts(args: &Args, view: &View, orders: &[Order], plan: &Plan, messages: Messages) -> Result<Vec<Part>> {
+/// A view with a number of threads.
+fn part(
+    args: &Args,
+    view: &View,
+    threads: Option<u16>,
+    orders: &[Order],
+    messages: Messages,
+) -> Result<Part> {
     // What is seen is found with all threads, and not timed.
     let all = thread_pool(None)?;
     let Seen { forest, memory, .. } = all.install(|| view.look(LookRules::usual(1), args.memory_limit()))?;
     let stage = all.install(|| Stage::new(&view.scene, &forest.nodes, view.size, orders, memory))?;
     drop(all);
-    let choice = args.choice(orders);
-    let given: Vec<Option<u16>> =
-        if args.threads.is_empty() { vec![None] } else { args.threads.iter().map(|&n| Some(n)).collect() };
-    // Fewest first: Embree's pool does not shrink.
-    let mut sorted: Vec<usize> = (0..given.len()).collect();
-    sorted.sort_by_key(|&i| given[i]);
-    let mut truths = Truths::default();
-    let mut parts: Vec<Option<Part>> = vec![None; given.len()];
-    for i in sorted {
-        let pool = thread_pool(given[i])?;
-        let name = &view.scene.name;
-        let say = |text: &str| {
-            let threads = given[i].map_or(String::new(), |n| format!(", threads: {n}"));
-            messages.say(&format!("{name}{threads}: {text}"));
-        };
-        parts[i] = Some(pool.install(|| {
-            let measured = measure(&stage, &choice, plan, &mut truths, &say)?;
-            Ok::<_, Error>(Part::new(&Heading::new(&stage), &measured))
-        })?);
-    }
-    Ok(parts.into_iter().flatten().collect())
+    let name = &view.scene.name;
+    let say = |text: &str| {
+        let threads = threads.map_or(String::new(), |n| format!(", threads: {n}"));
+        messages.say(&format!("{name}{threads}: {text}"));
+    };
+    thread_pool(threads)?.install(|| {
+        let mut truths = Truths::default();
+        let measured = measure(&stage, &args.choice(orders), &args.plan(), &mut truths, &say)?;
+        Ok(Part::new(&Heading::new(&stage), &measured))
+    })
 }
