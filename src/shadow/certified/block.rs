@@ -80,11 +80,12 @@ impl Sixteen {
                 covers &= value > edge.slack;
                 irregular |= value.abs() <= edge.meets;
             }
-            // A value that is not a number is no reason for anything.
+            // A value that is not a number, or too large for one, is no reason for anything.
             let w = (patch.w + patch.dw[0] * x) + patch.dw[1] * y;
             let (near, far) = (w + patch.spread, w - patch.spread);
-            self.near[i] = if near < patch.w_limits[1] { near } else { patch.w_limits[1] };
-            self.far[i] = if far > patch.w_limits[0] { far } else { patch.w_limits[0] };
+            let [least, most] = patch.w_limits;
+            self.near[i] = if (near < most) & (near > f32::NEG_INFINITY) { near } else { most };
+            self.far[i] = if (far > least) & (far < f32::INFINITY) { far } else { least };
             let cover = match (covers, misses) {
                 (true, _) => Item::COVERS,
                 (false, true) => 0,

@@ -47,12 +47,15 @@ impl Caster<'_> {
         let vertices = self.scene.triangles[triangle as usize].vertices;
         let corners = vertices.map(|vertex| self.projected[vertex as usize]);
         let [a, b, c] = corners.map(|corner| corner.side);
-        if a == b && a == c && a != Projected::NOWHERE {
-            if let Some(cells) = self.small_box(corners) {
-                return self.cast_small(triangle, facing, corners, cells, bins);
-            }
+        if a == b
+            && a == c
+            && a != Projected::NOWHERE
+            && let Some(cells) = self.small_box(corners)
+        {
+            self.cast_small(triangle, facing, corners, cells, bins);
+        } else {
+            self.cast_large(triangle, facing, bins);
         }
-        self.cast_large(triangle, facing, bins);
     }
 }
 

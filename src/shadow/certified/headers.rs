@@ -5,13 +5,19 @@ use super::dispatch::for_instruction_sets;
 use super::projection::Projector;
 use super::receivers::OPEN;
 
+/// Headers of all cells, and how well depths are known that are held against them.
+pub(super) struct Headers<'a> {
+    pub projector: &'a Projector,
+    /// No coordinate of a receiver is larger.
+    pub size: f32,
+    pub headers: &'a [Header],
+}
+
 for_instruction_sets! {
-    /// Sets `occluded` and `undecided` for receivers by their cells and depths. Coordinates of all are at most `size`. A
-    /// receiver in the light, without a cell, is lit: nothing is between the two.
+    /// Sets `occluded` and `undecided` for receivers by their cells and depths. A receiver in the light, without a cell, is
+    /// lit: nothing is between the two.
     pub(super) fn decide = decide_body, (
-        projector: &Projector,
-        size: f32,
-        headers: &[Header],
+        headers: &Headers<'_>,
         cells: &[u32],
         depths: &[f32],
         occluded: &mut [bool],
@@ -21,23 +27,20 @@ for_instruction_sets! {
 
 #[inline(always)]
 fn decide_body(
-    projector: &Projector,
-    size: f32,
-    headers: &[Header],
+    all: &Headers<'_>,
     cells: &[u32],
     depths: &[f32],
     occluded: &mut [bool],
     undecided: &mut [bool],
 ) {
-    let Some(last) = headers.len().checked_sub(1) else { return occluded.fill(false) };
+    let Some(last) = all.headers.len().checked_sub(1) else { return occluded.fill(false) };
     let count = cells.len();
     let (depths, occluded, undecided) = (&depths[..count], &mut occluded[..count], &mut undecided[..count]);
     for i in 0..count {
+        let cell = cells[i] as usize;
         // SAFETY: no more than the last.
-        let header = unsafe {
-            headers.get_unchecked(if (cells[i] as usize) < last { cells[i] as usize } else { last })
-        };
-        let error = projector.error_of(size, depths[i]);
+        let header = unsafe { all.headers.get_unchecked(if cell < last { cell } else { last }) };
+        let error = all.projector.error_of(all.size, depths[i]);
         // Comparisons with NaN are false.
         let is_lit = (depths[i] * (1.0 - error) > header.lit) | (cells[i] == OPEN);
         let is_dark = (depths[i] * (1.0 + error) < header.dark) & (error < 0.5) & (cells[i] != OPEN);

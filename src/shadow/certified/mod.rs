@@ -41,9 +41,10 @@ use certificate::{Header, Kinds, Record, Run};
 use entries::{Bins, Budget, Entry, Item};
 use facing::{Facing, facing};
 use glam::Vec3;
+use headers::Headers;
 use projection::{Projected, Projector};
 use rayon::prelude::*;
-use receivers::{CHUNK, Filed, OPEN};
+use receivers::{CHUNK, Filed};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use walk::{LANES, Walk};
 
@@ -276,7 +277,7 @@ impl Certified<'_> {
     /// Certificates light what lies on a triangle that is cast; all else asks the lists.
     fn leave_open_what_is_not_cast(&self, filed: &mut Filed, rounded: &RoundedPoints, facing: &[Facing]) {
         let is_bare = |&primitive: &PrimitiveIndex| primitive == RoundedPoints::NO_PRIMITIVE;
-        if self.all_are_cast() && !rounded.primitives.par_iter().any(|primitive| is_bare(primitive)) {
+        if self.all_are_cast() && !rounded.primitives.par_iter().any(is_bare) {
             return;
         }
         (&mut filed.depths, &rounded.primitives).into_par_iter().for_each(|(depth, primitive)| {
@@ -295,26 +296,20 @@ impl Certified<'_> {
         lists: &Lists,
         occluded: &mut [bool],
     ) -> Vec<u64> {
-        let size = self.size();
-        let open = |(chunk, ((cells, depths), occluded)): (usize, ((&[u32], &[f32]), &mut [bool]))| {
-            let _floats = StandardFloats::new();
-            let mut undecided = [false; CHUNK];
-            let undecided = &mut undecided[..cells.len()];
-            headers::decide(self.set, projector, size, &lists.headers, cells, depths, occluded, undecided);
-            let mut open = Vec::new();
-            for (i, eight) in undecided.chunks(8).enumerate() {
-                // Mostly none of them.
-                if eight.contains(&true) {
-                    let places = (8 * i..).zip(eight).filter(|(_, undecided)| **undecided);
-                    open.extend(places.map(|(i, _)| u64::from(cells[i]) << 32 | (chunk * CHUNK + i) as u64));
-                }
-            }
-            open
-        };
-        let chunks = filed.cells.par_chunks(CHUNK).zip(filed.depths.par_chunks(CHUNK));
-        let open: Vec<Vec<u64>> = chunks.zip(occluded.par_chunks_mut(CHUNK)).enumerate().map(open).collect();
+        let headers = Headers { projector, size: self.size(), headers: &lists.headers };
+        let receivers = filed.cells.par_chunks(CHUNK).zip(filed.depths.par_chunks(CHUNK));
+        let open: Vec<Vec<u64>> = receivers
+            .zip(occluded.par_chunks_mut(CHUNK))
+            .enumerate()
+            .map(|(chunk, ((cells, depths), occluded))| {
+                let _floats = StandardFloats::new();
+                let mut undecided = [false; CHUNK];
+                let undecided = &mut undecided[..cells.len()];
+                headers::decide(self.set, &headers, cells, depths, occluded, undecided);
+                open_queries(chunk * CHUNK, cells, undecided)
+            })
+            .collect();
         let mut open = open.concat();
-        debug_assert!(open.iter().all(|query| query >> 32 != u64::from(OPEN)));
         open.par_sort_unstable();
         open
     }
@@ -351,6 +346,19 @@ impl Certified<'_> {
         }
         all
     }
+}
+
+/// Undecided queries from a first one on, with their cells in the upper half.
+fn open_queries(first: usize, cells: &[u32], undecided: &[bool]) -> Vec<u64> {
+    let mut open = Vec::new();
+    for (eight, undecided) in undecided.chunks(8).enumerate() {
+        // Mostly none of them.
+        if undecided.contains(&true) {
+            let places = (8 * eight..).zip(undecided).filter(|(_, undecided)| **undecided);
+            open.extend(places.map(|(i, _)| u64::from(cells[i]) << 32 | (first + i) as u64));
+        }
+    }
+    open
 }
 
 /// Lists of all cells out of what was cast.

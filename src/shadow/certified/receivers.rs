@@ -20,8 +20,11 @@ pub(super) const CHUNK: usize = 4096;
 pub(super) const OPEN: u32 = u32::MAX;
 
 /// How much farther than its farthest receiver a cell is looked into, as a share of w: certificates hold only if
-/// nothing is withheld before their surface ends.
+/// nothing is withheld before their surface ends, and depths may be wrong.
 const MARGIN: f32 = 63.0 / 64.0;
+
+/// The most that w may be wrong by, as a share of itself. Far below what the margin leaves.
+const MOST_ERROR: f32 = 1.0 / 512.0;
 
 /// For each cell the w beyond which nobody asks, as a key that is 0 where nobody does and grows with the distance.
 pub(super) struct Horizon(Vec<u32>);
@@ -155,7 +158,7 @@ for_instruction_sets! {
     )
 }
 
-/// Tile, place and w of points whose cell is certain; the tile of others is [`OPEN`].
+/// Tile, place and w of points whose cell and depth are certain; the tile of others is [`OPEN`].
 #[inline(always)]
 fn locate_body(
     projector: &Projector,
@@ -174,6 +177,7 @@ fn locate_body(
         let delta = projector.delta_of(size, p.w);
         let ((column, du), (row, dv)) = (cell_and_border(p.u), cell_and_border(p.v));
         let certain = (p.side != Projected::NOWHERE)
+            & (projector.error_of(size, p.w) < MOST_ERROR)
             & (du.abs() > delta)
             & (dv.abs() > delta)
             & (column < projector.resolution)
