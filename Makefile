@@ -9,6 +9,7 @@
 #   make differential-fuzzing SECONDS=3600   random small scenes for so long, all testers against each other
 #   make fuzz RUNS=1200000        every loader under libFuzzer, with so many executions of each
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
+#   make mutants MUTANTS=...       cargo-mutants over geometry, light buffer and verdicts; MUTANTS are more of its options
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
 
@@ -19,7 +20,7 @@ DEMO_SIZE := 1280x720
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases differential-fuzzing fuzz planted-bugs clean-demo
+.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -74,6 +75,15 @@ fuzz: packages
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh
+
+# Hours. `MUTANTS="-f src/geometry/cone.rs"` looks at one file. What it leaves out and why is in
+# .cargo/mutants.toml. Without shrinking a failed property costs no more than a passed one.
+MUTANTS ?= -f 'src/geometry/**' -f 'src/shadow/light_buffer/**' -f 'src/verdict/**'
+mutants: packages
+	@$(CARGO) mutants --version > /dev/null 2>&1 || { \
+		echo "make mutants needs cargo-mutants: cargo install --locked cargo-mutants" >&2; exit 2; }
+	PROPTEST_MAX_SHRINK_ITERS=0 PROPTEST_DISABLE_FAILURE_PERSISTENCE=1 \
+		$(CARGO) mutants --output out $(MUTANTS)
 
 clean-demo:
 	rm -rf out/blocks out/courtyard out/blocks-lights

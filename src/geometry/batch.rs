@@ -126,7 +126,7 @@ fn scan(batch: &PointBatch, triangles: &[LightTriangle], start: usize, live: u16
     for (index, t) in triangles.iter().enumerate().skip(start) {
         if touches(batch, &limit, t) {
             let stop = settle(batch, t, index, live);
-            if stop.blocked | stop.undecided != 0 {
+            if stop.blocked != 0 || stop.undecided != 0 {
                 return Some(stop);
             }
         }
@@ -205,6 +205,12 @@ mod tests {
                 .filter(|stop| stop.blocked | stop.undecided != 0)
                 .collect();
             let batch = PointBatch::new(&points);
+            // All lanes are live: those without a point repeat the first.
+            let limit = batch.slack.map(|slack| -slack);
+            for t in &triangles {
+                let expected = points.iter().any(|p| t.classify(p) != Filtered::Clear);
+                prop_assert_eq!(touches(&batch, &limit, t), expected);
+            }
             for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
                 let mut found = Vec::new();
                 let mut start = 0;
@@ -215,5 +221,13 @@ mod tests {
                 prop_assert_eq!(&found, &expected);
             }
         }
+    }
+
+    #[test]
+    fn a_value_at_the_very_bound_is_not_clear() {
+        let t = LightTriangle { x: [1.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [0.0; 4] };
+        let at = |x: f32| PointBatch::new(&[LightPoint { x, y: 0.0, z: 0.0, slack: 0.25 }]);
+        let touched = |x: f32| touches(&at(x), &[-0.25; LANES], &t);
+        assert_eq!([(-0.25_f32).next_down(), -0.25, 0.25].map(touched), [false, true, true]);
     }
 }

@@ -10,7 +10,7 @@ pub(crate) struct Bounded {
     pub error: f64,
 }
 
-/// The bound itself is computed in floats: at most five operations a step, each wrong by one roundoff.
+/// The bound itself is computed in floats: at most eight operations a step, each wrong by one roundoff.
 const INFLATION: f64 = 1.0 + 16.0 * ROUNDOFF;
 
 impl Bounded {
@@ -35,15 +35,16 @@ impl Bounded {
             return Bounded { value: 0.0, error: f64::INFINITY };
         }
         let value = self.value / divisor.value;
-        let error = (self.error + value.abs() * divisor.error) / (smallest * (1.0 - 2.0 * ROUNDOFF));
+        let error = (self.error + value.abs() * divisor.error) / smallest;
         Bounded { value, error: (error + value.abs() * ROUNDOFF + f64::MIN_POSITIVE) * INFLATION }
     }
 
     /// The square root of a number that is not negative, whatever its bound says.
     pub fn square_root(&self) -> Bounded {
         let value = self.value.max(0.0).sqrt();
-        // |sqrt x - sqrt v| = |x - v| / (sqrt x + sqrt v), and at most sqrt |x - v|.
-        let error = if value > 0.0 { (self.error / value).min(self.error.sqrt()) } else { self.error.sqrt() };
+        // |sqrt x - sqrt v| = |x - v| / (sqrt x + sqrt v), and at most sqrt |x - v|. Zero over zero is NaN, which `min`
+        // passes over.
+        let error = (self.error / value).min(self.error.sqrt());
         Bounded { value, error: (error + value * ROUNDOFF + f64::MIN_POSITIVE) * INFLATION }
     }
 }

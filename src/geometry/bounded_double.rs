@@ -15,7 +15,7 @@ pub(crate) struct BoundedDouble {
 /// of u^2 (Joldes, Muller and Popescu 2017, theorems 3.1, 5.1 and 6.1 for the same operations or lesser ones), 16 here.
 const LOSS: f64 = DoubleDouble::ROUNDOFF;
 
-/// The bound itself is computed in floats.
+/// The bound itself is computed in floats: at most ten operations, each wrong by one roundoff.
 const INFLATION: f64 = 1.0 + 16.0 * ROUNDOFF;
 
 impl BoundedDouble {
@@ -25,8 +25,14 @@ impl BoundedDouble {
         (self.value, self.error)
     }
 
+    /// A number within `error` of `value`.
+    pub fn from_parts(value: DoubleDouble, error: f64) -> BoundedDouble {
+        BoundedDouble { value, error }
+    }
+
+    /// The magnitude, but for a roundoff that [`INFLATION`] makes up for.
     fn size(&self) -> f64 {
-        self.value.high.abs() * (1.0 + 2.0 * ROUNDOFF)
+        self.value.high.abs()
     }
 
     /// The quotient; its error is infinite if the divisor may be zero.
@@ -36,7 +42,7 @@ impl BoundedDouble {
             return BoundedDouble { value: DoubleDouble { high: 0.0, low: 0.0 }, error: f64::INFINITY };
         }
         let value = self.value.divide(divisor.value);
-        let size = value.high.abs() * (1.0 + 2.0 * ROUNDOFF);
+        let size = value.high.abs();
         let error = (self.error + size * divisor.error) / smallest + LOSS * size + f64::MIN_POSITIVE;
         BoundedDouble { value, error: error * INFLATION }
     }
@@ -113,7 +119,31 @@ mod tests {
         for root in [nothing.square_root(), huge.times(&huge).square_root()] {
             assert_eq!((root.sign(), root.rounded()), (None, None));
         }
+        let pair = |high: f64, error: f64| BoundedDouble::from_parts(DoubleDouble { high, low: 0.0 }, error);
+        for root in [pair(f64::NAN, 0.0).square_root(), pair(4.0, f64::INFINITY).square_root()] {
+            assert_eq!((root.sign(), root.rounded()), (None, None));
+        }
         let four = BoundedDouble::exactly(4.0);
         assert_eq!(four.square_root().sign(), Some(Sign::Positive));
+    }
+
+    #[test]
+    fn a_number_is_rounded_if_all_within_its_bound_round_alike() {
+        let rounded = |high: f64, low: f64, error: f64| {
+            BoundedDouble::from_parts(DoubleDouble { high, low }, error).rounded()
+        };
+        // The next number below 1 is half as far away as the next above it: so is what rounds to it.
+        let half = ROUNDOFF * 0.5;
+        for one in [1.0, -1.0] {
+            assert_eq!(rounded(one, 0.0, 0.0), Some(one));
+            assert_eq!(rounded(one, 0.0, half * 0.99), Some(one));
+            assert_eq!(rounded(one, half * 0.5, half * 0.49), Some(one));
+            assert_eq!(rounded(one, half * 0.5, half * 0.75), None);
+            assert_eq!(rounded(one, -half * 0.5, half * 0.75), None);
+            // A tie, and the bound itself is rounded.
+            assert_eq!(rounded(one, 0.0, half), None);
+        }
+        assert_eq!([rounded(1e-200, 0.0, 0.0), rounded(-1e-300, 0.0, 0.0)], [None; 2]);
+        assert_eq!(rounded(2e-200, 0.0, 0.0), Some(2e-200));
     }
 }

@@ -21,27 +21,33 @@ pub struct LightCone {
 impl LightCone {
     /// Whether a point is inside. `rounded` is its exact position with each coordinate correctly rounded.
     pub fn holds(&self, rounded: DVec3, exact: impl FnOnce() -> ExactPosition) -> bool {
+        let (difference, bound) = self.difference(rounded);
+        match Sign::certain(difference, bound) {
+            Some(sign) => sign == Sign::Positive,
+            None => self.holds_exactly(&exact().relative_to(self.apex)),
+        }
+    }
+
+    /// v . axis less cosine |v| |axis|, where v leads from the apex to the point, and the bound of its error.
+    fn difference(&self, rounded: DVec3) -> (f64, f64) {
         let v = rounded - self.apex.as_dvec3();
         let axis = self.axis.as_dvec3();
         let error = (rounded.abs() + v.abs()) * (2.0 * ROUNDOFF);
-        // v . axis against cosine |v| |axis|, with v known within `error`: half a roundoff of the position and one of
+        // v is known within `error`: half a roundoff of the position and one of
         // the difference, twice over. The scalar product adds 3 roundoffs of |v| . |axis|. A length is wrong by no
         // more than the sum of the errors of its components and by 3 roundoffs (the squares and sums count half under
         // the root), so that the product of both is by 7; 16 are taken, and 8 for the product with the cosine and the
         // last difference. Squares must not underflow.
         if v.length_squared() < 1e-280 {
-            return self.holds_exactly(&exact().relative_to(self.apex));
+            return (0.0, f64::INFINITY);
         }
         let along = v.dot(axis);
         let along_error = (error * 2.0 + v.abs() * (8.0 * ROUNDOFF)).dot(axis.abs());
         let size = v.length() * axis.length();
         let size_error = error.element_sum() * 2.0 * axis.length() + 16.0 * ROUNDOFF * size;
         let cosine = f64::from(self.cosine);
-        let bound = along_error + cosine * size_error + 8.0 * ROUNDOFF * (along.abs() + size) + 1e-300;
-        match Sign::certain(along - cosine * size, bound) {
-            Some(sign) => sign == Sign::Positive,
-            None => self.holds_exactly(&exact().relative_to(self.apex)),
-        }
+        let bound = along_error + cosine * size_error + 8.0 * ROUNDOFF * (along.abs() + size);
+        (along - cosine * size, bound)
     }
 
     /// Products of degree 12 are beyond what floats hold.
@@ -82,6 +88,26 @@ mod tests {
         let half = LightCone { apex: Vec3::ONE, axis: Vec3::NEG_Y, cosine: 0.0 };
         assert!(holds(&half, Vec3::new(100.0, 1.0f32.next_down(), -7.0)));
         assert!(!holds(&half, Vec3::new(100.0, 1.0, -7.0)));
+    }
+
+    #[test]
+    fn the_bound_is_the_sum_of_what_is_derived() {
+        // On one axis everything is counted by hand, in roundoffs.
+        let cone = |x: f32| LightCone { apex: Vec3::X * x, axis: Vec3::X * 3.0, cosine: 0.5 };
+        for (apex, x, expected, roundoffs) in [
+            // The position and the difference 2 (2 + 2), along it 3 (2 * 8 + 8 * 2), the sizes 2 * 3 * 8 + 16 * 6 and half
+            // of that, the last 8 (6 + 6).
+            (0.0, 2.0, 3.0, 96.0 + 72.0 + 96.0),
+            (0.0, -2.0, -9.0, 96.0 + 72.0 + 96.0),
+            // Digits that the position loses far away: 2 (5 + 2), 3 (2 * 14 + 8 * 2), 2 * 3 * 14 + 16 * 6.
+            (3.0, 5.0, 3.0, 132.0 + 90.0 + 96.0),
+        ] {
+            let (value, bound) = cone(apex).difference(DVec3::X * x);
+            assert_eq!(value, expected);
+            assert!((bound / (roundoffs * ROUNDOFF) - 1.0).abs() < 1e-9, "{} roundoffs", bound / ROUNDOFF);
+        }
+        // A length whose square underflows says nothing.
+        assert_eq!(cone(0.0).difference(DVec3::new(1e-170, 1e-165, 0.0)).1, f64::INFINITY);
     }
 
     proptest! {

@@ -55,3 +55,16 @@ impl DoubleDouble {
 fn renormalise(a: f64, b: f64) -> (f64, f64) {
     two_sum(a, b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_keeps_what_its_high_parts_leave_when_they_cancel() {
+        let pair = |high: f64, exponent: i32| DoubleDouble { high, low: 2.0_f64.powi(exponent) };
+        // The sum of the low parts needs 57 bits.
+        let sum = pair(1.0, -54).add(pair(-1.0, -110));
+        assert_eq!((sum.high, sum.low), (2.0_f64.powi(-54), 2.0_f64.powi(-110)));
+    }
+}

@@ -75,3 +75,31 @@ impl From<Vec3> for LightSpace {
         LightSpace { light: LightPosition::At(point), origin: point, reach: 0.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_has_no_weight() {
+        let v = Vec3::new(1.0, -2.0, 3.0);
+        assert_eq!(LightPosition::At(v).homogeneous(), (v, 1.0));
+        assert_eq!(LightPosition::Towards(v).homogeneous(), (v, 0.0));
+    }
+
+    #[test]
+    fn the_reach_is_that_of_the_farthest_corner_from_the_middle() {
+        let bounds = (Vec3::new(-1.0, 0.0, 2.0), Vec3::new(3.0, 1.0, 10.0));
+        let far = LightSpace::new(LightPosition::Towards(Vec3::Y), bounds);
+        assert_eq!(far.origin(), Vec3::new(1.0, 0.5, 6.0));
+        // 2 + 0.5 + 4, rounded up.
+        assert!(far.reach() >= 6.5 && far.reach() < 6.5 * (1.0 + 1e-14), "{:e}", far.reach());
+        let near = LightSpace::new(LightPosition::At(Vec3::Y), bounds);
+        assert_eq!((near.origin(), near.reach()), (Vec3::Y, 0.0));
+        // A middle that is rounded, away from either end.
+        let wide = (Vec3::splat(-1.0), Vec3::splat(f32::MAX));
+        let wide = LightSpace::new(LightPosition::Towards(Vec3::Y), wide);
+        let corner = |x: f32| (Vec3::splat(x).as_dvec3() - wide.origin().as_dvec3()).abs().element_sum();
+        assert!(wide.reach() >= corner(-1.0) && wide.reach() >= corner(f32::MAX));
+    }
+}

@@ -136,4 +136,44 @@ mod tests {
                 .is_some()
         );
     }
+
+    #[test]
+    fn the_slack_of_a_point_is_what_is_derived() {
+        let slack = |space: &LightSpace, p: DVec3| f64::from(LightPoint::new(space, p).slack);
+        let is_about = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-5;
+        // 16 roundoffs of f32 of the sum of coordinates.
+        let p = DVec3::new(1.0, -2.0, 5.0);
+        assert!(is_about(slack(&Vec3::ZERO.into(), p), 8.0 * 2.0_f64.powi(-20)));
+        // Far from the origin the position's own rounding: 4 of f64, of 2^40 in three coordinates.
+        let far = Vec3::splat(2.0_f32.powi(40));
+        assert!(is_about(slack(&far.into(), far.as_dvec3()), 12.0 * 2.0_f64.powi(40) * ROUNDOFF));
+        // Where there are offsets, 2^-40 of the reach.
+        let bounds = (Vec3::splat(-2.0), Vec3::splat(2.0));
+        let space = LightSpace::new(crate::geometry::LightPosition::Towards(Vec3::Y), bounds);
+        assert!(is_about(slack(&space, DVec3::ZERO), 6.0 * 2.0_f64.powi(-40)));
+        assert!(is_about(slack(&space, p), 8.0 * 2.0_f64.powi(-20)));
+        assert_eq!(slack(&Vec3::ZERO.into(), DVec3::X * 1e38), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_value_at_the_very_bound_decides_nothing() {
+        let t = LightTriangle { x: [1.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [0.0, 0.0, 0.0, -8.0] };
+        let at = |x: f32| LightPoint { x, y: 0.0, z: 0.0, slack: 0.25 };
+        let next = 0.25_f32.next_up();
+        assert_eq!(
+            [next, 0.25, 0.0, -0.25, -next].map(|x| t.classify(&at(x))),
+            [
+                Filtered::Blocks,
+                Filtered::Undecided,
+                Filtered::Undecided,
+                Filtered::Undecided,
+                Filtered::Clear
+            ]
+        );
+        assert_eq!([next, 0.25, -next].map(|x| t.certainly_holds(&at(x))), [true, false, false]);
+        // Only the edges are asked whether a point is held: here it is before the triangle.
+        let behind = LightTriangle { offset: [0.0, 0.0, 0.0, 8.0], ..t };
+        assert!(behind.certainly_holds(&at(1.0)));
+        assert_eq!(behind.classify(&at(1.0)), Filtered::Clear);
+    }
 }

@@ -230,4 +230,29 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn what_is_clear_is_decided_in_f64() {
+        let corners = [Vec3::new(-1.0, 1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(0.0, 1.0, 1.0)];
+        let ask = |light: LightPosition, point: Vec3| {
+            let space = LightSpace::new(light, (Vec3::NEG_ONE, Vec3::ONE));
+            let query = PreciseQuery::new(&space, point.as_dvec3(), || ExactPosition::Bare(point));
+            (query.blocks(corners), query.crosses(corners))
+        };
+        for light in [LightPosition::At(Vec3::Y * 2.0), LightPosition::Towards(Vec3::Y)] {
+            let of = |answer: bool, stage: Stage| ((answer, stage), (answer, stage));
+            assert_eq!(ask(light, Vec3::new(0.1, 0.0, 0.1)), of(true, Stage::Double), "behind it");
+            assert_eq!(ask(light, Vec3::new(0.1, 1.5, 0.1)), of(false, Stage::Double), "before it");
+            assert_eq!(ask(light, Vec3::new(7.0, 0.0, 0.1)), of(false, Stage::Double), "beside it");
+            assert_eq!(ask(light, Vec3::new(0.0, 1.0, 0.0)), of(false, Stage::Exact), "on it");
+        }
+    }
+
+    #[test]
+    fn a_difference_with_the_point_is_wrong_by_half_an_ulp_of_it_and_one_rounding() {
+        let space = LightSpace::from(Vec3::ZERO);
+        let query = PreciseQuery::new(&space, DVec3::new(3.0, 0.0, -1.0), || unreachable!());
+        let error = query.difference_error(DVec3::new(-5.0, 0.25, 0.0));
+        assert_eq!(error, DVec3::new(16.0, 0.5, 2.0) * ROUNDOFF);
+    }
 }

@@ -101,6 +101,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::ROUNDOFF;
     use proptest::prelude::*;
 
     const GRID: Grid = Grid { origin: [-0.95, 0.95], step: [0.1, -0.1], half: [0.05, 0.05], count: [20, 20] };
@@ -128,7 +129,62 @@ mod tests {
         assert_eq!(projected, Projected::Nowhere);
     }
 
+    #[test]
+    fn what_a_corner_beside_the_apex_is_off_by_is_left_room() {
+        // 4 * 64 roundoffs of (1 + 1 / z) / z, which is 0.22, for the corner at (1, 0, z).
+        let z = (256.0 * ROUNDOFF / 0.22).sqrt();
+        let corners = [DVec3::Z, DVec3::Z, DVec3::Z, DVec3::new(1.0, 0.0, z)];
+        let Projected::Within(outline) = Outline::project(&GRID, &frame(), tetrahedron(corners).into_iter())
+        else {
+            panic!("its corners can be projected")
+        };
+        // From 0 to the right border, with 0.22 and half a box to all sides: centres from -0.25 to 0.25.
+        let expected: Vec<_> = (7..=12).map(|row| (row, [7, 19])).collect();
+        assert_eq!(outline.spans([0, 20]).collect::<Vec<_>>(), expected);
+        assert_eq!(outline.spans([8, 10]).collect::<Vec<_>>(), expected[1..3]);
+    }
+
     proptest! {
+        /// No box is marked that the mesh is clear of by a billionth.
+        #[test]
+        fn rows_reach_as_far_as_the_mesh_in_them(
+            corners in prop::array::uniform4((-1.5f64..1.5, -1.5f64..1.5, 0.5f64..2.0)),
+        ) {
+            let corners = corners.map(|(x, y, z)| DVec3::new(x, y, z));
+            let projected = Outline::project(&GRID, &frame(), tetrahedron(corners).into_iter());
+            let found: Vec<_> = match &projected {
+                Projected::Within(outline) => outline.spans([0, 20]).collect(),
+                _ => Vec::new(),
+            };
+            let ends = corners.map(|c| (c.x / c.z, c.y / c.z));
+            for row in 0..20 {
+                let y = 0.95 - 0.1 * f64::from(row);
+                // All places of the mesh in the row, widened or narrowed: corners, and where edges pass its borders.
+                let reach = |half: f64| {
+                    let (low, high) = (y - half, y + half);
+                    let inside = ends.iter().filter(|(_, y)| (low..=high).contains(y)).map(|&(x, _)| x);
+                    let pairs = (0..4).flat_map(|i| (0..i).map(move |j| (ends[i], ends[j])));
+                    let crossed = pairs.flat_map(|((x0, y0), (x1, y1))| {
+                        [low, high].into_iter().filter_map(move |border| {
+                            let t = (border - y0) / (y1 - y0);
+                            (0.0..=1.0).contains(&t).then_some(x0 + (x1 - x0) * t)
+                        })
+                    });
+                    bounds(inside.chain(crossed))
+                };
+                let columns = |[left, right]: [f64; 2], half: f64| {
+                    let met = (0..20_u32).filter(|&column| {
+                        let x = -0.95 + 0.1 * f64::from(column);
+                        x + half >= left && x - half <= right
+                    });
+                    met.clone().min().zip(met.max())
+                };
+                let [least, most] = [-1e-7, 1e-7].map(|more| columns(reach(0.05 + more), 0.05 + more));
+                let found = found.iter().find(|(at, _)| *at == row).map(|(_, [left, right])| (*left, *right));
+                prop_assert!(found == most || found == least, "row {row}: {found:?}, {least:?} to {most:?}");
+            }
+        }
+
         #[test]
         fn every_point_of_the_mesh_is_in_a_box_of_the_outline(
             corners in prop::array::uniform4((-3.0f64..3.0, -3.0f64..3.0, 0.25f64..4.0)),

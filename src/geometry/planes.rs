@@ -211,4 +211,37 @@ mod tests {
             [Sign::Zero, Sign::Negative, Sign::Positive]
         );
     }
+
+    #[test]
+    fn planes_that_f64_knows_less_well_than_f32_needs_are_not_numbers() {
+        // 8 roundoffs of 2^23 are 2^-27.
+        let most = 8_388_608.0;
+        let scaled = |largest: f64, size: f64| {
+            let normal = DVec3::new(0.0, -largest, 0.5 * largest);
+            Plane { normal, size: DVec3::splat(size) }.scaled_to_f32()
+        };
+        assert_eq!(scaled(4.0, 4.0 * most), [0.0, -1.0, 0.5]);
+        assert!(scaled(4.0, f64::next_up(4.0 * most)).iter().all(|x| x.is_nan()));
+        assert!(scaled(f64::INFINITY, 1.0).iter().all(|x| x.is_nan()));
+    }
+
+    #[test]
+    fn offsets_are_known_within_their_share_and_the_allowance_or_are_not_numbers() {
+        let plane = Plane { normal: DVec3::new(0.0, 4.0, -2.0), size: DVec3::splat(4.0) };
+        let value = |bound: f64| plane.scaled_value((-8.0, bound), 0.25);
+        // 8 / 2^27 and 0.25 * 4.
+        let most = 8.0 / 134_217_728.0 + 1.0;
+        assert_eq!(value(most), -2.0);
+        assert!(value(f64::next_up(most)).is_nan());
+        assert!(plane.scaled_value((1e300, 0.0), 0.25).is_nan(), "beyond f32");
+    }
+
+    #[test]
+    fn the_bound_of_a_scalar_product_is_what_is_derived() {
+        let plane = Plane { normal: DVec3::new(0.0, 2.0, 0.0), size: DVec3::new(0.0, 3.0, 0.0) };
+        let (value, bound) = plane.dot(DVec3::Y * -5.0, DVec3::Y * (7.0 * ROUNDOFF));
+        assert_eq!(value, -10.0);
+        // 3 (12 * 5 + 2 * 7) roundoffs.
+        assert!((bound / (222.0 * ROUNDOFF) - 1.0).abs() < 1e-9, "{bound:e}");
+    }
 }

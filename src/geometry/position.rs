@@ -1,6 +1,6 @@
 //! Where a point is, exactly, and the f64 point nearest to it.
 
-use super::ROUNDOFF;
+use super::bounded_double::BoundedDouble;
 use super::curved::root;
 use super::curved::{Crossing, Shape};
 use super::double_double::DoubleDouble;
@@ -119,10 +119,10 @@ fn round_in_double_double(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -
     };
     let (numerator, numerator_error) = dot(&g);
     let (denominator, denominator_error) = dot(&d);
-    if denominator.high.abs() <= 4.0 * denominator_error {
+    let t = numerator.divide(denominator);
+    if denominator.high.abs() <= 4.0 * denominator_error || t.high.abs() >= 1e200 {
         return None;
     }
-    let t = numerator.divide(denominator);
     let t_error = 1.5 * (numerator_error + t.high.abs() * denominator_error) / denominator.high.abs()
         + BOUND * t.high.abs();
     let coordinate = |i: usize| {
@@ -130,14 +130,7 @@ fn round_in_double_double(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -
         let step = t.multiply(d[i]);
         let sum = step.add(DoubleDouble { high: start, low: 0.0 });
         let error = d[i].high.abs() * t_error + BOUND * (start.abs() + step.high.abs());
-        // Everything within `margin` of the high part must round to it. Tiny results, where products may
-        // have underflowed, are left to the exact way.
-        let margin = (sum.low.abs() + error) * (1.0 + 4.0 * ROUNDOFF);
-        let certain = sum.high.abs() > 1e-200
-            && t.high.abs() < 1e200
-            && sum.high + margin == sum.high
-            && sum.high - margin == sum.high;
-        certain.then_some(sum.high)
+        BoundedDouble::from_parts(sum, error).rounded()
     };
     Some(DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?))
 }
@@ -176,5 +169,22 @@ mod tests {
         let triangle = [Vec3::new(-1.0, 0.1, -3.0), Vec3::new(1.3, -0.2, -3.5), Vec3::new(0.1, 1.7, -2.9)];
         let hit = round_in_double_double(Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.01, 0.05, -1.0), triangle);
         assert!(hit.is_some());
+    }
+
+    #[test]
+    fn hits_of_every_size_need_no_exact_arithmetic() {
+        let triangle = [Vec3::new(-1.0, 0.1, -3.0), Vec3::new(1.3, -0.2, -3.5), Vec3::new(0.1, 1.7, -2.9)];
+        let (origin, direction) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.01, 0.05, -1.0));
+        for [places, directions] in [[-40, 0], [40, 0], [0, -40], [0, 40], [30, -30], [-30, 30]] {
+            let (scale, length) = (2.0_f32.powi(places), 2.0_f32.powi(directions));
+            let hit = round_in_double_double(origin * scale, direction * length, triangle.map(|p| p * scale));
+            assert!(hit.is_some(), "2^{places} and 2^{directions}");
+        }
+    }
+
+    #[test]
+    fn rays_along_the_plane_are_left_to_exact_arithmetic() {
+        let triangle = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        assert!(round_in_double_double(Vec3::Z, Vec3::X, triangle).is_none());
     }
 }

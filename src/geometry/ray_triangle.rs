@@ -184,4 +184,50 @@ mod tests {
     fn a_ray_in_the_plane_misses() {
         assert!(RayTriangle::new(Vec3::ZERO, [Vec3::X, Vec3::Y, Vec3::ONE - Vec3::Z]).is_none());
     }
+
+    #[test]
+    fn the_error_of_a_parameter_is_what_is_derived() {
+        // Across the z axis. With n = (0, 0, 4) the height is 8 within 4 (2 * 12 + 2 * 4) = 128 roundoffs, the slope 4
+        // within 48, and t = 2 within 2 (128 + 2 * 48) / 4 + 4 * 2 = 120.
+        let corners = [Vec3::new(-1.0, -1.0, 2.0), Vec3::new(1.0, -1.0, 2.0), Vec3::new(0.0, 1.0, 2.0)];
+        let direction = Vec3::Z;
+        for (scale, origin) in [(1.0_f32, Vec3::ZERO), (2.0_f32.powi(-20), Vec3::ZERO), (1.0, Vec3::Z * 16.0)]
+        {
+            let corners = corners.map(|p| p * scale + origin);
+            let found = [
+                RayTriangle::new(origin, corners).and_then(|t| t.hit(direction)),
+                hit_beyond(origin, direction, corners, &RayStart::origin()),
+            ];
+            for RayParameter { value, error } in found.map(|hit| hit.expect("a hit")) {
+                let expected = f64::from(scale) * 120.0 * ROUNDOFF;
+                assert_eq!(value, 2.0 * f64::from(scale));
+                assert!((error / expected - 1.0).abs() < 1e-9, "{} roundoffs", error / ROUNDOFF);
+            }
+        }
+    }
+
+    #[test]
+    fn hits_are_in_order_where_their_bounds_are_apart() {
+        let at = |value: f64, error: f64| RayParameter { value, error };
+        assert_eq!(at(1.0, 0.25).certain_order(at(2.0, 0.5)), Some(Ordering::Less));
+        assert_eq!(at(2.0, 0.25).certain_order(at(1.0, 0.5)), Some(Ordering::Greater));
+        assert_eq!(at(1.0, 0.5).certain_order(at(2.0, 0.5)), None);
+        assert_eq!(at(1.0, 1.0).certain_order(at(2.0, 0.5)), None);
+        // The sum of the bounds is rounded down to what lies between.
+        let tiny = ROUNDOFF * 0.75;
+        assert_eq!(at(0.0, 1.0).certain_order(at(1.0 + 2.0 * ROUNDOFF, tiny)), None);
+    }
+
+    #[test]
+    fn exact_places_do_not_depend_on_the_order_of_corners() {
+        let at = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(1.0, -1.0, z), Vec3::new(0.0, 1.0, z)];
+        let place = |[a, b, c]: [Vec3; 3]| {
+            [[a, b, c], [a, c, b]].map(|t| exact_parameter(Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0), t))
+        };
+        for near in &place(at(2.0)) {
+            assert!(place(at(2.0)).iter().all(|same| near.order(same) == Ordering::Equal));
+            assert!(place(at(3.0)).iter().all(|far| near.order(far) == Ordering::Less));
+            assert!(place(at(-3.0)).iter().all(|behind| near.order(behind) == Ordering::Greater));
+        }
+    }
 }

@@ -46,19 +46,16 @@ fn round_quotient(numerator: &IBig, denominator: &IBig) -> f64 {
     if negative { -magnitude } else { magnitude }
 }
 
-/// mantissa * 2^exponent to the nearest f64, ties to even; the lowest mantissa bit may be sticky.
+/// mantissa * 2^exponent to the nearest f64, ties to even; the lowest mantissa bit may be sticky. A mantissa of 55 bits
+/// or more, or an exponent below -1075.
 fn round_to_f64(mantissa: u64, exponent: i64) -> f64 {
     let length = 64 - i64::from(mantissa.leading_zeros());
-    // The last bit that fits: 53 bits, or 2^-1074.
+    // The last bit that fits: 53 bits, or 2^-1074. There are at least two more.
     let last = (exponent + length - 53).max(-1074);
     let drop = last - exponent;
-    let kept = if drop <= 0 {
-        mantissa << -drop
-    } else {
-        let half = 1u64 << (drop - 1);
-        let (whole, rest) = (mantissa >> drop, mantissa & ((1 << drop) - 1));
-        whole + u64::from(rest > half || (rest == half && whole & 1 == 1))
-    };
+    let half = 1u64 << (drop - 1);
+    let (whole, rest) = (mantissa >> drop, mantissa & ((1 << drop) - 1));
+    let kept = whole + u64::from(rest > half || (rest == half && whole & 1 == 1));
     // kept < 2^54 is exact as f64; scaling by powers of two in two steps stays exact.
     let half_scale = last / 2;
     kept as f64 * power_of_two(half_scale) * power_of_two(last - half_scale)

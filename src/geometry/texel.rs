@@ -54,6 +54,14 @@ impl<F: Fn() -> [ExactNumber; 3]> Weights<F> {
 
     /// The place, if the bounds allow no other.
     fn rounded_place(&self, axis: &TexelAxis) -> Option<i64> {
+        let (value, error) = self.quotient(axis)?;
+        // The error is more than 16 roundoffs of the value: what passes is far within 64 bits.
+        let certain = (value - error).floor() == (value + error).floor();
+        certain.then(|| value.floor() as i64)
+    }
+
+    /// Coordinate times size, and the bound of its error; `None` if the sum of the weights may be zero.
+    fn quotient(&self, axis: &TexelAxis) -> Option<(f64, f64)> {
         let [w0, w1, w2] = self.rounded;
         let [u0, u1, u2] = axis.coordinates.map(|u| f64::from(u) * f64::from(axis.size));
         // The sum adds 2 roundoffs of its terms to the weights' own bounds; the weighted one 1 for each coordinate, 1
@@ -68,9 +76,7 @@ impl<F: Fn() -> [ExactNumber; 3]> Weights<F> {
         let error = 2.0 * (total_error + value.abs() * sum_error) / (sum - sum_error)
             + 4.0 * ROUNDOFF * value.abs()
             + f64::MIN_POSITIVE;
-        let certain =
-            sum > 2.0 * sum_error && value.abs() < 1e15 && (value - error).floor() == (value + error).floor();
-        certain.then(|| value.floor() as i64)
+        (sum > 2.0 * sum_error).then_some((value, error))
     }
 }
 
@@ -155,6 +161,40 @@ mod tests {
     }
 
     #[test]
+    fn the_bound_of_a_place_is_what_is_derived() {
+        // In roundoffs: each weight is off by as many as its size, coordinates times the size of 2 are 6, 10 and 14.
+        for (weights, coordinates, expected, roundoffs) in [
+            // The sum of 7 by 7 + 4 * 7, the weighted one of 82 by 82 + 8 * 82.
+            ([1.0, 2.0, 4.0], [3.0, 5.0, 7.0], 82.0 / 7.0, 2.0 * (738.0 + 410.0) / 7.0 + 4.0 * 82.0 / 7.0),
+            ([1.0, 2.0, 4.0], [-3.0, 5.0, 7.0], 10.0, 2.0 * (738.0 + 350.0) / 7.0 + 40.0),
+            ([1.0, 2.0, 4.0], [3.0, -5.0, -7.0], -10.0, 2.0 * (738.0 + 350.0) / 7.0 + 40.0),
+            // A weight of the wrong sign within its bound.
+            ([-1.0, 2.0, 4.0], [3.0, 5.0, 7.0], 14.0, 2.0 * (738.0 + 14.0 * 35.0) / 5.0 + 56.0),
+        ] {
+            let rounded = weights.map(|w: f64| (w, w.abs() * ROUNDOFF));
+            let weights = Weights { rounded, exact: || unreachable!() };
+            let (value, error) =
+                weights.quotient(&TexelAxis { coordinates, size: 2 }).expect("a sum above zero");
+            assert!((value / expected - 1.0).abs() < 1e-12, "{value}");
+            assert!((error / (roundoffs * ROUNDOFF) - 1.0).abs() < 1e-9, "{} roundoffs", error / ROUNDOFF);
+        }
+    }
+
+    #[test]
+    fn a_sum_that_may_be_zero_and_a_place_far_away_are_left_open() {
+        let place = |weight: f64, error: f64, coordinate: f32| {
+            let weights = Weights { rounded: [(weight, error); 3], exact: || unreachable!() };
+            weights.rounded_place(&TexelAxis { coordinates: [coordinate; 3], size: 1 })
+        };
+        assert_eq!(place(1.0, 0.0, 0.5), Some(0));
+        assert_eq!(place(1.0, 0.0, -0.5), Some(-1));
+        assert_eq!(place(1.0, 0.51, 0.5), None);
+        assert_eq!([1e16, f32::MAX].map(|far| place(1.0, 0.0, far)), [None; 2]);
+        assert_eq!(place(1e-200, 0.0, 0.5), Some(0));
+        assert_eq!(place(1e-200, 1e-203, 0.5), Some(0));
+    }
+
+    #[test]
     fn borders_belong_to_the_texel_that_they_begin() {
         let place = |weights, coordinates| texels(weights, 0.0, coordinates, 4);
         assert_eq!(place([1.0, 0.0, 0.0], [0.25, 9.0, 9.0]), Place::Near(1));
@@ -196,6 +236,20 @@ mod tests {
                 let found = Weights { rounded, exact: || weights.map(ExactNumber::from) }.texels(&[axis; 2])[0];
                 prop_assert_eq!(found, exact);
             }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn places_by_signs_are_those_by_division(
+            weights in prop::array::uniform3(0..9_u8),
+            coordinates in prop::array::uniform3(prop_oneof![-3.0f32..3.0, (-4..5_i8).prop_map(f32::from), -1e6f32..1e6]),
+            size in prop::sample::select(vec![1_u32, 2, 3, 256, 4096]),
+        ) {
+            prop_assume!(weights != [0; 3]);
+            let weights = weights.map(|w| ExactNumber::from(f32::from(w)));
+            let axis = TexelAxis { coordinates, size };
+            prop_assert_eq!(place_by_signs(&weights, &axis), exact_place(&weights, &axis));
         }
     }
 }

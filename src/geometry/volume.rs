@@ -188,16 +188,22 @@ fn may_meet_box(low: DVec3, high: DVec3, segment: &LightSegment) -> bool {
     }
     let (d, size) = (segment.direction, segment.direction.abs());
     let middle = (low + high) * 0.5 - segment.start;
-    // The exact segment lies within `point_error` of the one between the rounded points; middle and half
-    // extent are wrong by two roundings of the coordinates, and the products below by a few of theirs.
-    let half = (high - low) * 0.5
-        + segment.point_error
-        + ROUNDINGS * (low.abs() + high.abs() + middle.abs() + segment.start.abs());
+    let half = half_extent(low, high, middle, segment);
     let misses = |i: usize, j: usize| {
         let value = d[i] * middle[j] - d[j] * middle[i];
         value.abs() > (size[i] * half[j] + size[j] * half[i]) * (1.0 + ROUNDINGS) + 1e-300
     };
     !(misses(0, 1) || misses(1, 2) || misses(2, 0))
+}
+
+/// Half the extent of a box, widened by all that rounding can move it and the segment.
+///
+/// The exact segment lies within `point_error` of the one between the rounded points; middle and half extent are
+/// wrong by two roundings of the coordinates, and the products with them by a few of theirs.
+fn half_extent(low: DVec3, high: DVec3, middle: DVec3, segment: &LightSegment) -> DVec3 {
+    (high - low) * 0.5
+        + segment.point_error
+        + ROUNDINGS * (low.abs() + high.abs() + middle.abs() + segment.start.abs())
 }
 
 /// The distance of the centre from the nearest point of the segment.
@@ -214,9 +220,13 @@ fn may_meet_sphere(centre: DVec3, radius: f64, segment: &LightSegment) -> bool {
     }
     let along = (middle.dot(segment.direction) / segment.length_squared).clamp(0.0, most);
     let distance = (middle - segment.direction * along).length();
-    let slack = segment.point_error.length()
-        + ROUNDINGS * (middle.length() + centre.length() + segment.start.length() + radius);
-    distance <= radius + slack
+    distance <= radius + sphere_slack(middle, centre, radius, segment)
+}
+
+/// What rounding can move the segment, and the distance of a sphere from it.
+fn sphere_slack(middle: DVec3, centre: DVec3, radius: f64, segment: &LightSegment) -> f64 {
+    segment.point_error.length()
+        + ROUNDINGS * (middle.length() + centre.length() + segment.start.length() + radius)
 }
 
 #[cfg(test)]
@@ -344,5 +354,47 @@ mod tests {
             LightSegment::new(&space, DVec3::ZERO)
         };
         assert!(volume.may_be_met_by(&towards(1e-3)) && !volume.may_be_met_by(&towards(-1e-3)));
+    }
+
+    #[test]
+    fn volumes_are_as_large_as_they_must_be() {
+        let offset = Vec3::new(8.0, 16.0, 32.0);
+        let tips = || [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|v| [v, -v]).map(|v| v + offset);
+        let ball = Volume::Sphere { centre: offset, radius: 1.0_f32.next_up() };
+        assert_eq!(Volume::around(tips()), Some(ball));
+        let points = tips().map(|p| Volume::Box { low: p, high: p });
+        assert_eq!(Volume::around_volumes(points), Some(ball));
+        let balls = tips().map(|centre| Volume::Sphere { centre, radius: 0.25 });
+        let Some(Volume::Sphere { centre, radius }) = Volume::around_volumes(balls) else {
+            panic!("a sphere")
+        };
+        assert!(centre.distance(offset) < 1e-5 && (radius - 1.25).abs() < 1e-5, "{centre} {radius}");
+        let long = Volume::Box { low: offset, high: offset + Vec3::new(1.0, 2.0, 3.0) };
+        assert_eq!(Volume::around_volumes([long].into_iter()), Some(long));
+        assert_eq!((long.surface(), long.centre()), (22.0, DVec3::new(8.5, 17.0, 33.5)));
+        let two = Volume::Sphere { centre: offset, radius: 2.0 };
+        assert_eq!((two.surface(), two.centre()), (16.0 * std::f64::consts::PI, offset.as_dvec3()));
+    }
+
+    #[test]
+    fn volumes_are_widened_by_what_is_derived() {
+        // In roundoffs: 2 of the point's coordinates, and 32 of each place.
+        let segment = LightSegment::new(&Vec3::new(3.0, 0.0, 0.0).into(), DVec3::new(0.0, 4.0, 0.0));
+        let slack = sphere_slack(DVec3::Z * 4.0, DVec3::new(3.0, 0.0, 4.0), 2.0, &segment);
+        assert!((slack / ROUNDOFF - (8.0 + 32.0 * (4.0 + 5.0 + 3.0 + 2.0))).abs() < 1e-6);
+        let segment = LightSegment::new(&Vec3::new(-7.0, 1.0, 0.0).into(), DVec3::new(5.0, 0.0, -2.0));
+        let (low, high) = (DVec3::ONE, DVec3::new(3.0, 5.0, 9.0));
+        let half = half_extent(low, high, (low + high) * 0.5 - segment.start, &segment);
+        let more = (half - DVec3::new(1.0, 2.0, 4.0)) / ROUNDOFF;
+        let expected = DVec3::new(10.0, 0.0, 4.0)
+            + 32.0 * DVec3::new(1.0 + 3.0 + 9.0 + 7.0, 1.0 + 5.0 + 2.0 + 1.0, 1.0 + 9.0 + 5.0);
+        assert!((more - expected).abs().max_element() <= 8.0, "{more} and {expected}");
+    }
+
+    #[test]
+    fn a_segment_whose_squares_underflow_may_meet_everything() {
+        let segment = LightSegment::new(&Vec3::ZERO.into(), DVec3::splat(1e-150));
+        let far = Volume::Sphere { centre: Vec3::ONE, radius: 0.5 };
+        assert!(far.may_be_met_by(&segment));
     }
 }

@@ -265,7 +265,7 @@ pub trait Progress: Sync {
     fn advance(&self, queries: u64);
 }
 
-fn per_query(seconds: f64, queries: usize) -> f64 {
+pub(super) fn per_query(seconds: f64, queries: usize) -> f64 {
     if queries == 0 { 0.0 } else { seconds * 1e9 / queries as f64 }
 }
 

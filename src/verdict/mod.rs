@@ -7,6 +7,8 @@ mod edges;
 mod judge;
 mod maps;
 mod sweep;
+#[cfg(test)]
+mod tests;
 
 pub use cause::{Cause, CauseCounts, WrongAnswer};
 pub use check::{ArbiterCheck, check_arbiter};

@@ -206,4 +206,66 @@ mod tests {
         let flat = Shape::Ellipsoid(Ellipsoid { centre: Vec3::splat(100.0), axes });
         assert_eq!(outer(&flat).unwrap().len(), 12);
     }
+
+    /// How far the faces of a hull are from a point inside of it: the nearest and the farthest.
+    fn faces(hull: &Hull, middle: DVec3) -> [f64; 2] {
+        hull.iter().fold([f64::INFINITY, 0.0], |[low, high], [a, b, c]| {
+            let distance = (b - a).cross(c - a).normalize().dot(a - middle).abs();
+            [low.min(distance), high.max(distance)]
+        })
+    }
+
+    fn is_about(found: f64, expected: f64) -> bool {
+        (found / expected - 1.0).abs() < 1e-8
+    }
+
+    #[test]
+    fn hulls_are_wider_by_a_millionth_and_by_their_distance_from_the_origin() {
+        // 2^20 * 2^-40.
+        let far = 2.0_f64.powi(-20);
+        for (x, wider) in [(0.0, 1e-6), (-1_048_576.0, 1e-6 + far)] {
+            let centre = Vec3::Z * x;
+            let middle = centre.as_dvec3();
+            let [low, high] = faces(&outer(&Shape::sphere(centre, 1.0)).unwrap(), middle);
+            assert!(is_about(low, 1.0 + wider) && is_about(high, 1.0 + wider), "{low} to {high}");
+            // A thin ellipsoid needs more of its own size.
+            let axes = [Vec3::X * 4.0, Vec3::Y * 2.0, Vec3::Z * 0.5];
+            let thin = outer(&Shape::Ellipsoid(Ellipsoid { centre, axes })).unwrap();
+            let thinnest = 4.0 * 2.0 * 0.5 / 16.0;
+            let scale = 1.0 + 1e-6 + (wider - 1e-6 + 2.0_f64.powi(-38)) / thinnest;
+            let unit: Hull =
+                thin.iter().map(|t| t.map(|p| (p - middle) / DVec3::new(4.0, 2.0, 0.5))).collect();
+            let [low, high] = faces(&unit, DVec3::ZERO);
+            assert!(is_about(low, scale) && is_about(high, scale), "{low} to {high}");
+            let disc = outer(&Shape::Disc(Disc { centre, normal: Vec3::Y * 3.0, radius: 2.0 })).unwrap();
+            let [low, high] = faces(&disc, middle);
+            let wider_disc = 2.0 * 1e-6 + wider - 1e-6;
+            assert!((low / wider_disc - 1.0).abs() < 1e-3, "{low}");
+            assert!(is_about(high, (2.0 + wider_disc) * (1.0 + 1e-6)), "{high}");
+        }
+        let cone = Shape::cone(Vec3::X * 1_048_576.0, 2.0, Vec3::new(1_048_576.0, 16.0, 0.0), 2.0);
+        let middle = DVec3::new(1_048_576.0, 8.0, 0.0);
+        let [near, ends] = faces(&outer(&cone).unwrap(), middle);
+        let wider = (16.0 + 2.0) * 1e-6 + far;
+        assert!(is_about(near, (2.0 + wider) * (1.0 + 1e-6)) && is_about(ends, 8.0 + wider), "{near} {ends}");
+        let frustum = outer(&Shape::cone(Vec3::ZERO, 1.0, Vec3::Y * 4.0, 3.0)).unwrap();
+        let widest = |y: f64| {
+            let ring = frustum.iter().flatten().filter(|p| (p.y - y).abs() < 0.1).map(|p| p.x.hypot(p.z));
+            ring.fold(0.0, f64::max) * (PI / SIDES as f64).cos() / (1.0 + 1e-6)
+        };
+        assert!(is_about(widest(0.0), 1.0 + 7e-6) && is_about(widest(4.0), 3.0 + 7e-6));
+    }
+
+    #[test]
+    fn a_box_is_wider_by_a_millionth_of_its_longest_side() {
+        let (low, high) = (Vec3::new(-2.0, -3.0, 1_048_576.0), Vec3::new(2.0, 7.0, 1_048_580.0));
+        let wider = 10.0 * 1e-6 + 1_048_580.0 * 2.0_f64.powi(-40);
+        let hull = box_between(low, high);
+        let bounds = hull
+            .iter()
+            .flatten()
+            .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[a, b], &p| [a.min(p), b.max(p)]);
+        let more = [low.as_dvec3() - bounds[0], bounds[1] - high.as_dvec3()];
+        assert!(more.iter().all(|more| (*more - wider).abs().max_element() < 1e-9), "{more:?}");
+    }
 }

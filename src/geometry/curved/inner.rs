@@ -198,4 +198,115 @@ mod tests {
             prop_assert!(query.meets(&shape, Base::Other).0.any());
         }
     }
+
+    #[test]
+    fn polygons_in_balls_lie_where_tangents_touch() {
+        let (at, towards) = (LightPosition::At(Vec3::X * 2.0), LightPosition::Towards(Vec3::X * 3.0));
+        for (light, height, radius) in [(at, 0.5, 0.75_f64.sqrt()), (towards, 0.0, 1.0)] {
+            let corners = polygon(&Shape::sphere(Vec3::ZERO, 1.0), light).expect("a polygon");
+            assert_eq!(corners.len(), SIDES);
+            for (i, p) in corners.iter().enumerate() {
+                let p = *p / SMALLER;
+                assert!((p.x - height).abs() < 1e-12 && (p.y.hypot(p.z) - radius).abs() < 1e-12, "{p}");
+                let next = corners[(i + 1) % SIDES] / SMALLER;
+                let side = 2.0 * radius * (std::f64::consts::PI / SIDES as f64).sin();
+                assert!((p.distance(next) - side).abs() < 1e-12);
+            }
+        }
+        let axes = [Vec3::X * 4.0, Vec3::Y * 0.5, Vec3::Z * 2.0];
+        let (centre, light) = (Vec3::new(1.0, 2.0, 3.0), LightPosition::At(Vec3::new(9.0, 2.0, 3.0)));
+        for p in polygon(&Shape::Ellipsoid(Ellipsoid { centre, axes }), light).expect("a polygon") {
+            let p = (p - centre.as_dvec3()) / SMALLER;
+            assert!(
+                (p.x - 2.0).abs() < 1e-12 && ((p.y / 0.5).hypot(p.z / 2.0) - 0.75_f64.sqrt()).abs() < 1e-12
+            );
+        }
+    }
+
+    #[test]
+    fn balls_that_are_seen_too_closely_or_are_too_flat_have_no_polygon() {
+        let has = |centre: Vec3, axes: [f32; 3], light: f32| {
+            let axes = [Vec3::X * axes[0], Vec3::Y * axes[1], Vec3::Z * axes[2]];
+            let light = LightPosition::At(centre + Vec3::X * light);
+            polygon(&Shape::Ellipsoid(Ellipsoid { centre, axes }), light).is_some()
+        };
+        assert!(has(Vec3::ZERO, [1.0; 3], 1.0001) && !has(Vec3::ZERO, [1.0; 3], 1.000_001));
+        assert!(has(Vec3::ZERO, [1.0; 3], 0.9e9) && !has(Vec3::ZERO, [1.0; 3], 1.1e9));
+        assert!(has(Vec3::ZERO, [1.0, 1.0, 0.0011], 2.0) && !has(Vec3::ZERO, [1.0, 1.0, 0.0009], 2.0));
+        assert!(has(Vec3::Y * 0.9e6, [1.0; 3], 2.0) && !has(Vec3::Y * 1.1e6, [1.0; 3], 2.0));
+    }
+
+    #[test]
+    fn coordinates_are_precise_up_to_a_millionth_of_the_size() {
+        assert!(is_precise(Vec3::NEG_Y * 1.9e6, 2.0) && !is_precise(Vec3::NEG_Y * 2.1e6, 2.0));
+        assert!(is_precise(Vec3::ZERO, 1.1e-30) && !is_precise(Vec3::ZERO, 0.9e-30));
+        assert!(is_precise(Vec3::ZERO, 0.9e30) && !is_precise(Vec3::ZERO, 1.1e30));
+    }
+
+    #[test]
+    fn polygons_in_discs_have_their_radius_and_are_not_seen_flat() {
+        let disc = |centre: Vec3| Shape::Disc(Disc { centre, normal: Vec3::Y * 5.0, radius: 2.0 });
+        let centre = Vec3::new(1.0, 2.0, -3.0);
+        for p in polygon(&disc(centre), LightPosition::At(Vec3::new(1.0, 4.0, 0.0))).expect("a polygon") {
+            let p = (p - centre.as_dvec3()) / SMALLER;
+            assert!(p.y == 0.0 && (p.length() - 2.0).abs() < 1e-12);
+        }
+        assert!((margin(&disc(centre)) - 1e-6 * (2.0 + 3e-3)).abs() < 1e-18);
+        assert_eq!(margin(&Shape::sphere(centre, 2.0)), 0.0);
+        let is_seen = |light: LightPosition| polygon(&disc(centre), light).is_some();
+        for height in [-1.0_f32, 1.0] {
+            let towards = |height: f32| LightPosition::Towards(Vec3::new(3.0, height * 3.0, 0.0));
+            let at = |height: f32| LightPosition::At(centre + Vec3::new(0.0, height * 3.0, 3.0));
+            assert!(is_seen(towards(0.011 * height)) && !is_seen(towards(0.009 * height)));
+            assert!(is_seen(at(0.011 * height)) && !is_seen(at(0.009 * height)));
+        }
+        let far = |distance: f32| LightPosition::At(centre + Vec3::Y * distance);
+        assert!(is_seen(far(1.9e6)) && !is_seen(far(2.1e6)));
+    }
+
+    #[test]
+    fn polygons_in_cones_end_before_segments_leave_through_an_open_end() {
+        let corners = |radii: [f32; 2], light: LightPosition| {
+            let cone = Shape::cone(Vec3::ZERO, radii[0], Vec3::Y * 10.0, radii[1]);
+            polygon(&cone, light).map(|p| <[DVec3; 4]>::try_from(p).expect("a quadrangle"))
+        };
+        // The quadrangle is 0.3 of the radius before the axis, and at most 0.7 * 1.01 of the widest inside of the body.
+        let aside = 0.91_f64.sqrt();
+        let check = |radii: [f32; 2], light: LightPosition, [low, high]: [f64; 2]| {
+            let found = corners(radii, light).expect("a polygon");
+            let radius = |y: f64| f64::from(radii[0]) + f64::from(radii[1] - radii[0]) * y / 10.0;
+            let corner = |y: f64, z: f64| DVec3::new(0.3 * radius(y), y, aside * z * radius(y));
+            let expected = [corner(low, 1.0), corner(low, -1.0), corner(high, -1.0), corner(high, 1.0)];
+            for (p, q) in found.iter().zip(expected) {
+                let q_or_mirrored = [q, DVec3::new(q.x, q.y, -q.z)];
+                assert!(q_or_mirrored.iter().any(|&q| (*p - q).abs().max_element() < 2e-4), "{p} and {q}");
+            }
+        };
+        let (towards, at) = (
+            |x: f32, y: f32| LightPosition::Towards(Vec3::new(x, y, 0.0)),
+            |x: f32, y: f32| LightPosition::At(Vec3::new(x, y, 0.0)),
+        );
+        check([1.0; 2], towards(3.0, 0.0), [0.0, 10.0]);
+        check([1.0; 2], towards(1.0, 1.0), [0.0, 10.0 - 0.707]);
+        check([1.0; 2], towards(1.0, -2.0), [1.414, 10.0]);
+        // Across the axis 1 less the growth of 0.1 a unit, times 0.3, for each that it climbs.
+        let rise = 1.0 - 0.1 * 0.3;
+        check([1.0, 2.0], towards(1.0, 1.0), [0.0, 10.0 - 1.414 / rise]);
+        check([1.0; 2], at(4.0, 5.0), [0.0, 10.0]);
+        let share = 0.707 / (4.0 - 0.3);
+        check([1.0; 2], at(4.0, 20.0), [0.0, (10.0 - share * 20.0) / (1.0 - share)]);
+        check([1.0; 2], at(4.0, -6.0), [share * 6.0 / (1.0 - share), 10.0]);
+        let share = 1.414 / (8.0 - (2.0 - 0.1 * 15.0) * 0.3);
+        check([2.0, 1.0], at(8.0, 15.0), [0.0, (10.0 - share * 15.0) / (1.0 - share)]);
+        // From too near, from too far, along the axis, and through an open end alone.
+        assert!(corners([1.0; 2], at(1.1, 5.0)).is_some() && corners([1.0; 2], at(1.04, 5.0)).is_none());
+        assert!(corners([1.0; 2], at(0.9e6, 5.0)).is_some() && corners([1.0; 2], at(1.1e6, 5.0)).is_none());
+        assert!(
+            corners([1.0; 2], towards(0.1, 1.0)).is_some()
+                && corners([1.0; 2], towards(0.009, 1.0)).is_none()
+        );
+        assert!(corners([1.0; 2], at(4.0, 80.0)).is_none());
+        assert!(corners([1e-4, 0.9e-3], towards(1.0, 0.0)).is_none(), "a needle");
+        assert!(corners([2e-3, 1e-3], towards(1.0, 0.0)).is_some());
+    }
 }

@@ -16,6 +16,8 @@ pub(crate) mod root;
 pub(crate) mod segment;
 mod shape;
 #[cfg(test)]
+mod shape_tests;
+#[cfg(test)]
 pub(crate) mod tests;
 
 pub use crossing::Crossing;

@@ -73,7 +73,7 @@ pub(crate) fn meets<'p>(
 }
 
 /// Whether the line of a segment certainly passes by a ball around the surface, which most do.
-fn passes_by(shape: &Shape, light: LightPosition, rounded: DVec3) -> bool {
+pub(super) fn passes_by(shape: &Shape, light: LightPosition, rounded: DVec3) -> bool {
     let Some((centre, radius)) = shape.ball() else { return false };
     let along = match light {
         LightPosition::At(light) => light.as_dvec3() - rounded,

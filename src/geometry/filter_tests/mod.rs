@@ -6,6 +6,7 @@
 //! That bounds cover the worst case, to which random roundings seldom come near, is what the derivations beside
 //! them are for.
 
+mod bounds;
 mod cones;
 mod footprints;
 mod inputs;

@@ -109,6 +109,30 @@ proptest! {
     }
 
     #[test]
+    fn a_segment_through_an_edge_crosses_as_if_it_were_moved(s in situation()) {
+        prop_assume!(s.is_finite());
+        let Some(p) = exact::point(&s.position) else { return Ok(()) };
+        let query = PreciseQuery::new(&s.space, s.position.rounded(), || s.position);
+        let truth = oriented(s.space.light(), s.corners).is_some_and(|corners| {
+            let [a, b, c] = corners;
+            let is_inside = |(a, b): (Vec3, Vec3)| {
+                let at = |p: &exact::Vector| exact::edge(s.space.light(), a, b, p);
+                // Moved by (e, e^2, e^3): the value there, or the first of the three changes that is not zero.
+                let moved = [0, 1, 2].map(|axis| {
+                    let mut moved = p.clone();
+                    moved[axis] = &moved[axis] + rational(1.0);
+                    at(&moved) - at(&p)
+                });
+                let mut signs = [at(&p)].into_iter().chain(moved).map(|value| sign(&value));
+                signs.find(|&sign| sign != Sign::Zero) == Some(Sign::Positive)
+            };
+            [(a, b), (b, c), (c, a)].into_iter().all(is_inside)
+                && sign(&exact::height(&corners, &p)) == Sign::Positive
+        });
+        prop_assert_eq!(query.crosses(s.corners).0, truth);
+    }
+
+    #[test]
     fn points_are_correctly_rounded(s in situation()) {
         prop_assume!(s.is_finite());
         let Some(p) = exact::point(&s.position) else { return Ok(()) };

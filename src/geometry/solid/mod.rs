@@ -206,6 +206,12 @@ fn parts(triangles: usize, edges: &[Edge]) -> Vec<u32> {
 /// at most 8 roundoffs of the sum of its absolute terms, and a sum of n numbers by n roundoffs of theirs.
 fn volume(triangles: &[[Vec3; 3]]) -> Sign {
     let Some(&[origin, ..]) = triangles.first() else { return Sign::Zero };
+    let (sum, bound) = rounded_volume(triangles, origin);
+    Sign::certain(sum, bound).unwrap_or_else(|| exact_volume(triangles, origin).sign())
+}
+
+/// Six times the volume in f64, and the bound of its error.
+fn rounded_volume(triangles: &[[Vec3; 3]], origin: Vec3) -> (f64, f64) {
     let (mut sum, mut size) = (0.0, 0.0);
     for corners in triangles {
         let [a, b, c] = corners.map(|p| p.as_dvec3() - origin.as_dvec3());
@@ -214,8 +220,7 @@ fn volume(triangles: &[[Vec3; 3]]) -> Sign {
         let terms = glam::DVec3::new(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
         size += a.abs().dot(terms);
     }
-    let bound = 2.0 * (triangles.len() as f64 + 8.0) * ROUNDOFF * size;
-    Sign::certain(sum, bound).unwrap_or_else(|| exact_volume(triangles, origin).sign())
+    (sum, 2.0 * (triangles.len() as f64 + 8.0) * ROUNDOFF * size)
 }
 
 fn exact_volume(triangles: &[[Vec3; 3]], origin: Vec3) -> Expansion {

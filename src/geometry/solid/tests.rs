@@ -359,3 +359,19 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_bound_of_a_volume_is_what_is_derived() {
+    // The absolute terms of the determinant are 1 * 320, 2 * 238 and 3 * 176.
+    let one = [Vec3::new(1.0, 2.0, 3.0), Vec3::new(5.0, 7.0, 11.0), Vec3::new(13.0, 17.0, 19.0)];
+    for (triangles, count) in [(vec![one], 1.0), (vec![one; 3], 3.0)] {
+        let (sum, bound) = rounded_volume(&triangles, Vec3::ZERO);
+        assert_eq!(sum, 24.0 * count);
+        assert!(
+            (bound / (2.0 * (count + 8.0) * 1324.0 * count * crate::geometry::ROUNDOFF) - 1.0).abs() < 1e-9
+        );
+        let origin = Vec3::new(-2.0, 4.0, 8.0);
+        let moved: Vec<_> = triangles.iter().map(|t| t.map(|p| p + origin)).collect();
+        assert_eq!(rounded_volume(&moved, origin), (sum, bound));
+    }
+}

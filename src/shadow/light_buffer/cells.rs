@@ -130,3 +130,35 @@ pub(super) fn exact_index(x: &ExactNumber, z: &ExactNumber, resolution: u32) -> 
     }
     low
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_is_certain_where_its_borders_are_farther_than_the_tolerance() {
+        // A middle, and three quarters of a cell from its left border, in the third of four.
+        assert_eq!(
+            [0.0, 0.49, 0.51].map(|tolerance| certain_index(0.25, tolerance, 4)),
+            [Some(2), Some(2), None]
+        );
+        assert_eq!([0.24, 0.26].map(|tolerance| certain_index(0.375, tolerance, 4)), [Some(2), None]);
+        assert_eq!([0.24, 0.26].map(|tolerance| certain_index(0.125, tolerance, 4)), [Some(2), None]);
+        // On a border, even if that is all that is known, and beside all cells.
+        assert_eq!([-1.0, 0.0, 1.0, -1.125, 1.125].map(|value| certain_index(value, 0.0, 4)), [None; 5]);
+        assert_eq!([-0.99, 0.99].map(|value| certain_index(value, 0.0, 4)), [Some(0), Some(3)]);
+    }
+
+    #[test]
+    fn a_coordinate_is_wrong_by_half_an_ulp_of_the_point_and_of_the_difference() {
+        assert_eq!(coordinate_error(3.0, -5.0), 8.0 * f64::EPSILON);
+        assert_eq!(coordinate_error(-3.0, 0.0), 3.0 * f64::EPSILON);
+    }
+
+    #[test]
+    fn the_boxes_of_a_side_tile_it_and_are_a_little_wider() {
+        let grid = side_grid(4);
+        assert_eq!((grid.origin, grid.step, grid.count), ([-0.75; 2], [0.5; 2], [4; 2]));
+        assert!(grid.half.iter().all(|&half| half > 0.25 && half < 0.25 + 1e-12));
+    }
+}

@@ -115,6 +115,25 @@ mod tests {
     use crate::shadow::{BuildInput, Culling, Resolution, SceneIndex, VolumeThreshold};
 
     #[test]
+    fn every_kind_of_item_counts_in_its_list() {
+        let mut found = Occupancy::default();
+        found.add(Square { opaque: 1, transparent: 2, bounding_volumes: 4, full_occlusions: 8 });
+        found.add(Square { transparent: 3, ..Square::default() });
+        found.add(Square { full_occlusions: 1, ..Square::default() });
+        found.add(Square { opaque: 2, ..Square::default() });
+        let expected = Occupancy {
+            squares: 0,
+            opaque: 3,
+            transparent: 5,
+            bounding_volumes: 4,
+            full_occlusions: 9,
+            non_empty: 3,
+            longest: 15,
+        };
+        assert_eq!((found, found.items()), (expected, 21));
+    }
+
+    #[test]
     fn the_kinds_add_up_to_what_the_build_counted() {
         let scene = find("counter-top").unwrap().build(None).unwrap();
         let index = SceneIndex::new(&scene);

@@ -332,3 +332,27 @@ fn depths_bound_the_triangle_from_both_sides() {
     }
     assert_eq!(build::round_up(f64::INFINITY), f32::INFINITY);
 }
+
+#[test]
+fn the_resolution_that_is_chosen_is_a_power_of_two_about_the_root() {
+    let expected =
+        [(0, 32), (1024, 32), (1089, 64), (4096, 64), (5000, 128), (1 << 20, 1024), (1 << 30, 1024)];
+    for (casters, cells) in expected {
+        assert_eq!(automatic_resolution(casters), cells, "{casters}");
+    }
+}
+
+#[test]
+fn a_cell_beside_what_is_stored_has_no_list() {
+    let header = Header { start: 0, full_occlusion: f32::INFINITY };
+    let lists = SideLists {
+        first: [4, 7],
+        count: [3, 2],
+        headers: vec![header; 7],
+        records: vec![Record { near: 1.0, caster: 0 }; 5],
+        groups: CellGroups::default(),
+    };
+    assert_eq!([lists.cell(4, 7), lists.cell(6, 7), lists.cell(5, 8)], [Some(0), Some(2), Some(4)]);
+    assert_eq!([lists.cell(3, 7), lists.cell(7, 7), lists.cell(4, 6), lists.cell(4, 9)], [None; 4]);
+    assert_eq!(lists.bytes(), 7 * 8 + 5 * 8);
+}

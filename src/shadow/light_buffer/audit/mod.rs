@@ -5,6 +5,9 @@ use crate::geometry::ExactPosition;
 use crate::geometry::occlusion::PreciseQuery;
 use glam::Vec3;
 
+#[cfg(test)]
+mod tests;
+
 /// What an audit looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Audit {

@@ -21,6 +21,9 @@ use crate::shadow::{BuildInput, Casters, Receivers, VolumeThreshold};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+#[cfg(test)]
+mod tests;
+
 /// A triangle's projection on one side: of a primitive, or of what stands for a curved one.
 pub(super) struct Cast {
     pub role: Role,
