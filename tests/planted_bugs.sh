@@ -51,7 +51,7 @@ plant() {
 
 buffer=src/shadow/light_buffer
 
-plant cell-too-few $buffer/build.rs \
+plant cell-too-few $buffer/build/mod.rs \
     'entries.extend((first..=first + (right - left))' 'entries.extend((first..first + (right - left))' \
     every_cell_that_a_triangle_meets_lists_it_or_lies_behind_a_cover \
     every_exact_tester_is_right_in_every_case_at_every_resolution \
@@ -135,7 +135,7 @@ plant base-surface-rule-dropped $buffer/walk.rs \
     'if asked.untested == Some(primitive) || asked' 'if asked' \
     the_base_surface_is_not_tested
 
-plant depth-not-rounded-down $buffer/build.rs \
+plant depth-not-rounded-down $buffer/build/mod.rs \
     'if f64::from(rounded) > value { rounded.next_down() } else { rounded }' 'rounded.next_up()' \
     depths_bound_the_triangle_from_both_sides
 
