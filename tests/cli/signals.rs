@@ -14,7 +14,9 @@ const SIGINT: i32 = 2;
 const SIGTERM: i32 = 15;
 
 fn program(arguments: &[&str], out: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_lightbuffer"));
+    // Under nohup, and in the background of a script, signals are ignored, which children inherit and the program keeps to.
+    let mut command = Command::new("env");
+    command.arg("--default-signal=HUP,INT,TERM").arg(env!("CARGO_BIN_EXE_lightbuffer"));
     command.args(arguments).arg("-o").arg(out).current_dir(env!("CARGO_MANIFEST_DIR"));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
