@@ -161,9 +161,8 @@ impl Certified<'_> {
                 return Ok(Work { bytes: work.bytes + fixed as u64, ..work });
             }
             if resolution == 1 {
-                return memory
-                    .check("lists of triangles around a light", MOST_ENTRIES * size_of::<Entry>() as u64)
-                    .map(|()| unreachable!("one cell a side has room for six entries a triangle"));
+                let limit = "lists of all triangles around a light, in one cell a side, need more memory than there may be";
+                return Err(Error::Usage(limit.into()));
             }
             resolution = resolution.div_ceil(2);
         }
