@@ -102,7 +102,7 @@ fn facts(view: &View) -> Facts {
     let scene = &view.scene;
     let index = SceneIndex::new(scene);
     let surfaces = |wanted: Surface| {
-        let objects = scene.objects.iter().zip(&index.convexity);
+        let objects = scene.objects.iter().zip(index.convexity(scene));
         let convex = objects.filter(|(object, _)| object.count > 0).filter_map(|(_, c)| c.as_ref());
         convex.filter(|convexity| convexity.surface == wanted).count()
     };
@@ -115,8 +115,8 @@ fn facts(view: &View) -> Facts {
         objects: scene.objects.len(),
         counts: Counts::of(scene),
         vertices: scene.vertices.len(),
-        casting: index.casting.len(),
-        duplicates: blocking_triangles(scene) - index.casting.len(),
+        casting: index.casting(scene).len(),
+        duplicates: blocking_triangles(scene) - index.casting(scene).len(),
         degenerate: scene.dropped.degenerate,
         non_finite: scene.dropped.non_finite,
         dropped_curved: scene.dropped.curved,

@@ -12,9 +12,10 @@ use crate::film::{FileSet, add_exr, add_false_colour, unique_safe_names};
 use crate::geometry::LightPosition;
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Skipped, Totals, Validation, WhySkipped};
+use crate::scene::Scene;
 use crate::shading::Textures;
 use crate::shadow::Queries;
-use crate::shadow::{BuildInput, SceneIndex, TesterEntry, testers};
+use crate::shadow::{BuildInput, TesterEntry, testers};
 use crate::verdict::{EpsilonCounts, LightVerdict, Progress, check_arbiter, judge, sweep_epsilon};
 use std::path::PathBuf;
 
@@ -115,7 +116,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         let position = light.position();
         let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
         let input = args.run.build_input(&view.scene, &index, position, seen.memory);
-        let fitting = fitting(entries, position, &index, &queries, &mut report.skipped);
+        let fitting = fitting(entries, position, &view.scene, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);
         let mut verdict = judge(&input, &queries, &fitting, &bars)?;
         let visible = &seen.forest.nodes;
@@ -180,11 +181,11 @@ fn sweep(
 fn fitting<'e>(
     entries: &[&'e TesterEntry],
     light: LightPosition,
-    index: &SceneIndex,
+    scene: &Scene,
     queries: &Queries,
     skipped: &mut Vec<Skipped>,
 ) -> Vec<&'e TesterEntry> {
-    let (casters, queries) = (index.casting.len() as f64, queries.points.len() as f64);
+    let (casters, queries) = (f64::from(scene.primitive_count()), queries.points.len() as f64);
     let why_not = |entry: &TesterEntry| match entry.lights.has(light) {
         false => Some(WhySkipped::DirectionalLight),
         true if (entry.expected_tests)(casters, queries) > MOST_TESTS => Some(WhySkipped::TooManyTests),

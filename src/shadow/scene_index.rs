@@ -5,26 +5,23 @@ use super::certified::{Adjacency, is_plain};
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
-use crate::scene::{PrimitiveIndex, Scene};
+use crate::scene::{Object, PrimitiveIndex, Scene};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::OnceLock;
 
-/// What is cast, and which objects are convex.
+/// What is cast, and which objects are convex. Each part is found when it is first asked for, so that nobody waits for what
+/// their testers do without. All methods want the scene that the index was made of.
 #[derive(Default)]
 pub struct SceneIndex {
-    /// Triangles that block light: of objects that cast, exact duplicates once unless they have holes (TRUTH,
-    /// "Surface points and rays").
-    pub casting: Vec<PrimitiveIndex>,
+    casting: OnceLock<Vec<PrimitiveIndex>>,
     /// Curved surfaces that block light, exact duplicates once.
     pub curved: Vec<PrimitiveIndex>,
     /// Primitives of objects that cast which let light through and attenuate it.
     pub transparent: Vec<PrimitiveIndex>,
-    /// Lowest and highest corner of a box around all that casts and has an end; both zero if nothing does.
-    pub bounds: (Vec3, Vec3),
-    /// For each object its verified convexity; that of objects with curved surfaces is not known.
-    pub convexity: Vec<Option<Convexity>>,
+    bounds: OnceLock<(Vec3, Vec3)>,
+    convexity: OnceLock<Vec<Option<Convexity>>>,
     solids: OnceLock<Solids>,
     adjacency: OnceLock<Adjacency>,
     beside_whole: OnceLock<Option<Box<SceneIndex>>>,
@@ -34,13 +31,6 @@ impl SceneIndex {
     /// Examines a scene.
     pub fn new(scene: &Scene) -> SceneIndex {
         let _floats = StandardFloats::new();
-        let mut seen = HashSet::with_capacity(scene.triangles.len());
-        let casting: Vec<_> = (0..scene.triangles.len() as u32)
-            .filter(|&t| {
-                let mut is_new = || scene.masked(t).is_some() || seen.insert(duplicate_key(scene, t));
-                scene.object(t).shadowing.casts && !scene.is_transparent(t) && is_new()
-            })
-            .collect();
         let casts = |&p: &PrimitiveIndex| scene.object(p).shadowing.casts;
         let mut seen = HashSet::new();
         let curved: Vec<_> = (scene.triangles.len() as u32..scene.primitive_count())
@@ -51,26 +41,49 @@ impl SceneIndex {
             true => (0..scene.primitive_count()).filter(casts).filter(|&p| scene.is_transparent(p)).collect(),
             false => Vec::new(),
         };
-        let bounds = bounds_of(scene, casting.iter().chain(&curved).chain(&transparent));
-        let convexity = scene
-            .objects
-            .par_iter()
-            .in_standard_floats()
-            .map(|object| {
-                if object.curved_count > 0 {
-                    return None;
-                }
-                let triangles: Vec<_> =
-                    (object.first..object.first + object.count).map(|t| scene.corners(t)).collect();
-                convexity::verify(&triangles)
-            })
-            .collect();
-        SceneIndex { casting, curved, transparent, bounds, convexity, ..SceneIndex::default() }
+        SceneIndex { curved, transparent, ..SceneIndex::default() }
+    }
+
+    /// Triangles that block light: of objects that cast, exact duplicates once unless they have holes (TRUTH,
+    /// "Surface points and rays").
+    pub fn casting(&self, scene: &Scene) -> &[PrimitiveIndex] {
+        self.casting.get_or_init(|| {
+            let mut seen = HashSet::with_capacity(scene.triangles.len());
+            let mut is_new = |t| scene.masked(t).is_some() || seen.insert(duplicate_key(scene, t));
+            (0..scene.triangles.len() as u32).filter(|&t| blocks(scene, t) && is_new(t)).collect()
+        })
+    }
+
+    /// Lowest and highest corner of a box around all that casts and has an end; both zero if nothing does.
+    pub fn bounds(&self, scene: &Scene) -> (Vec3, Vec3) {
+        let all = || self.casting(scene).iter().chain(&self.curved).chain(&self.transparent);
+        *self.bounds.get_or_init(|| bounds_of(scene, all()))
+    }
+
+    /// The space of a light over all that casts.
+    pub fn light_space(&self, scene: &Scene, light: LightPosition) -> LightSpace {
+        match light {
+            LightPosition::At(point) => LightSpace::from(point),
+            LightPosition::Towards(_) => LightSpace::new(light, self.bounds(scene)),
+        }
+    }
+
+    /// For each object its verified convexity; that of objects with curved surfaces is not known.
+    pub fn convexity(&self, scene: &Scene) -> &[Option<Convexity>] {
+        let verify = |object: &Object| {
+            if object.curved_count > 0 {
+                return None;
+            }
+            let triangles = object.first..object.first + object.count;
+            convexity::verify(&triangles.map(|t| scene.corners(t)).collect::<Vec<_>>())
+        };
+        let all = || -> Vec<_> { scene.objects.par_iter().in_standard_floats().map(verify).collect() };
+        found::<Vec<_>>(&self.convexity, all)
     }
 
     /// The closed solids of the scene that this index was made of, found when they are first asked for.
     pub fn solids(&self, scene: &Scene) -> &Solids {
-        self.solids.get_or_init(|| Solids::new(scene))
+        found(&self.solids, || Solids::new(scene))
     }
 
     /// What lies across the edges of the scene's triangles, found when it is first asked for.
@@ -81,20 +94,37 @@ impl SceneIndex {
     /// The same index without triangles that block light and have no holes; `None` if nothing else is cast.
     pub fn beside_whole_triangles(&self, scene: &Scene) -> Option<&SceneIndex> {
         let make = || {
-            let casting: Vec<_> = self.casting.iter().copied().filter(|&t| !is_plain(scene, t)).collect();
+            let has_holes = |&t: &PrimitiveIndex| blocks(scene, t) && !is_plain(scene, t);
+            let casting: Vec<_> = match scene.alpha_masks.is_empty() {
+                true => Vec::new(),
+                false => (0..scene.triangles.len() as u32).filter(has_holes).collect(),
+            };
             let is_empty = casting.is_empty() && self.curved.is_empty() && self.transparent.is_empty();
             let rest = || SceneIndex {
-                casting,
+                casting: casting.into(),
                 curved: self.curved.clone(),
                 transparent: self.transparent.clone(),
-                bounds: self.bounds,
-                convexity: self.convexity.clone(),
                 ..SceneIndex::default()
             };
             (!is_empty).then(|| Box::new(rest()))
         };
         self.beside_whole.get_or_init(make).as_deref()
     }
+}
+
+/// What is found with the help of other threads. Nobody waits for a lock meanwhile, since a thread that helps may come to ask for
+/// the same; if two begin at once, one finds it in vain.
+fn found<T>(place: &OnceLock<T>, find: impl FnOnce() -> T) -> &T {
+    if let Some(found) = place.get() {
+        return found;
+    }
+    let found = find();
+    place.get_or_init(|| found)
+}
+
+/// Whether a triangle blocks light, at least where it is there.
+fn blocks(scene: &Scene, triangle: PrimitiveIndex) -> bool {
+    scene.object(triangle).shadowing.casts && !scene.is_transparent(triangle)
 }
 
 /// A box around primitives that have an end.
@@ -131,7 +161,7 @@ pub struct Casters {
 impl Casters {
     /// All that casts, relative to a light.
     pub fn new(scene: &Scene, index: &SceneIndex, light: LightPosition) -> Casters {
-        Casters::some(scene, index, light, &index.casting)
+        Casters::some(scene, index, light, index.casting(scene))
     }
 
     /// Some of the triangles that block, and all curved surfaces that do, relative to a light.
@@ -158,7 +188,7 @@ impl Casters {
         triangles: &[PrimitiveIndex],
         curved: &[PrimitiveIndex],
     ) -> Casters {
-        let space = LightSpace::new(light, index.bounds);
+        let space = index.light_space(scene, light);
         let (mut planes, mut primitives): (Vec<_>, Vec<_>) = triangles
             .par_iter()
             .in_standard_floats()

@@ -131,8 +131,8 @@ fn why_not(entry: &TesterEntry, choice: &Choice, stage: &Stage) -> Result<Option
     if stage.lights.iter().any(|light| !entry.lights.has(light.light)) {
         return Ok(Some("a light is infinitely far away, and it has no answer for such".into()));
     }
-    let casters = stage.index.casting.len() + stage.index.curved.len();
-    let tests = (entry.expected_tests)(casters as f64, stage.queries() as f64);
+    let casters = stage.scene.primitive_count();
+    let tests = (entry.expected_tests)(f64::from(casters), stage.queries() as f64);
     let most = if choice.testers.is_empty() { MOST_TESTS_UNNAMED } else { MOST_TESTS };
     // What does not grow with both is fast.
     let grows = (entry.expected_tests)(1e6, 1.0) > (entry.expected_tests)(1.0, 1.0);

@@ -28,14 +28,18 @@ impl ConvexObjects {
         let scene = input.scene;
         let object_of = |primitive: PrimitiveIndex| scene.object_index(primitive);
         let mut cast = vec![0; scene.objects.len()];
-        input.index.casting.iter().for_each(|&primitive| cast[object_of(primitive) as usize] += 1);
+        input
+            .index
+            .casting(input.scene)
+            .iter()
+            .for_each(|&primitive| cast[object_of(primitive) as usize] += 1);
         let object_before = |&primitive: &PrimitiveIndex| {
             if scene.is_curved(primitive) {
                 return None;
             }
             let object = object_of(primitive);
             let Object { first, count, .. } = scene.objects[object as usize];
-            let convexity = input.index.convexity[object as usize].as_ref()?;
+            let convexity = input.index.convexity(input.scene)[object as usize].as_ref()?;
             let light = orientation(input.light, scene.corners(primitive));
             let outside = convexity.inner_side[(primitive - first) as usize] * light == Sign::Negative;
             // One with holes lets light through.

@@ -16,7 +16,7 @@ pub(super) struct HarmlessObjects(Vec<Option<u32>>);
 impl HarmlessObjects {
     /// Empty for a scene without convex objects.
     pub fn new(input: &BuildInput) -> HarmlessObjects {
-        let (scene, convexity) = (input.scene, &input.index.convexity);
+        let (scene, convexity) = (input.scene, input.index.convexity(input.scene));
         if convexity.iter().all(Option::is_none) {
             return HarmlessObjects(Vec::new());
         }

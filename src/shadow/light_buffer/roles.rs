@@ -22,11 +22,11 @@ impl<'a> Roles<'a> {
     pub fn new(input: &BuildInput<'a>) -> Roles<'a> {
         let (scene, index) = (input.scene, input.index);
         let (casting, culled) = match input.culling {
-            Culling::Off => (Cow::Borrowed(&index.casting[..]), Vec::new()),
+            Culling::Off => (Cow::Borrowed(index.casting(scene)), Vec::new()),
             Culling::ClosedSolids => {
                 let far_sides = index.solids(scene).far_sides(input.light);
                 let is_far = |&triangle: &PrimitiveIndex| far_sides.contains(scene, triangle);
-                let (far, near): (Vec<_>, Vec<_>) = index.casting.iter().partition(|t| is_far(t));
+                let (far, near): (Vec<_>, Vec<_>) = index.casting(scene).iter().partition(|t| is_far(t));
                 (Cow::Owned(near), far)
             }
         };

@@ -277,7 +277,7 @@ fn the_base_surface_is_not_tested() {
     builder.add_object(ObjectInput::new("two", positions, triangles)).unwrap();
     let scene = builder.finish();
     let index = SceneIndex::new(&scene);
-    assert_eq!(index.convexity, [None]);
+    assert_eq!(index.convexity(&scene), [None]);
     let buffer = build(&scene, &index, 1);
     let point = SurfacePoint::on_ray(&scene, Vec3::ZERO, Vec3::new(0.1, 0.1, 1.0), 0);
     let mut answer = [true];
