@@ -1,6 +1,6 @@
 //! A triangle against the sixteen cells of a block at once.
 
-use super::entries::Item;
+use super::cell_lists::Item;
 use super::tiles::{BLOCK, BLOCK_EDGE};
 
 /// What an edge says of the centre of a cell: a x + b y + at, positive inside, x and y counted from a first cell.
@@ -9,8 +9,8 @@ pub(super) struct Edge {
     pub a: f32,
     pub b: f32,
     pub at: f32,
-    /// Below this nothing of the cell is inside: minus what the value can change within a cell, and the slack.
-    pub out: f32,
+    /// Below minus this nothing of the cell is inside: what the value can change within half a cell, and the slack.
+    pub within: f32,
     /// The most that the value is wrong by.
     pub slack: f32,
     /// The edge may meet a cell whose value is no larger than this; below zero for an edge that is regular.
@@ -72,31 +72,59 @@ impl Sixteen {
                 & (keys[i] > key);
             let x = (column as i32 - patch.origin[0] as i32) as f32;
             let y = (row as i32 - patch.origin[1] as i32) as f32;
-            let (mut out, mut misses, mut covers, mut irregular) = (false, false, true, false);
-            for edge in &patch.edges {
-                let value = (edge.at + edge.a * x) + edge.b * y;
-                out |= value < edge.out;
-                misses |= value < -edge.slack;
-                covers &= value > edge.slack;
-                irregular |= value.abs() <= edge.meets;
-            }
-            // A value that is not a number, or too large for one, is no reason for anything.
             let w = (patch.w + patch.dw[0] * x) + patch.dw[1] * y;
-            let (near, far) = (w + patch.spread, w - patch.spread);
-            let [least, most] = patch.w_limits;
-            self.near[i] = if (near < most) & (near > f32::NEG_INFINITY) { near } else { most };
-            self.far[i] = if (far > least) & (far < f32::INFINITY) { far } else { least };
-            let cover = match (covers, misses) {
-                (true, _) => Item::COVERS,
-                (false, true) => 0,
-                (false, false) => Item::MAY_COVER,
-            };
-            self.flags[i] = cover | if irregular { Item::IRREGULAR } else { 0 };
+            let mut cover = Cover::WHOLE;
+            for edge in &patch.edges {
+                cover.edge((edge.at + edge.a * x) + edge.b * y, edge.within, edge.slack, edge.meets);
+            }
+            let [near, far] = depths(w, patch.spread, patch.w_limits);
+            (self.near[i], self.far[i], self.flags[i]) = (near, far, cover.flags());
             // An interval without a number: the triangle is not there.
-            live[i] = u32::from(is_asked & !out & (self.near[i] >= self.far[i]));
+            live[i] = u32::from(is_asked & !cover.is_out & (near >= far));
         }
         bits(&live)
     }
+}
+
+/// What the edges of a triangle say of a cell, one after the other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cover {
+    pub is_out: bool,
+    misses: bool,
+    covers: bool,
+    irregular: bool,
+}
+
+impl Cover {
+    /// Before any edge was asked.
+    pub const WHOLE: Cover = Cover { is_out: false, misses: false, covers: true, irregular: false };
+
+    /// The value of an edge at the centre; the others as in [`Edge`]. A value that is not a number, or too large for
+    /// one, is no reason for anything.
+    #[inline(always)]
+    pub fn edge(&mut self, value: f32, within: f32, slack: f32, meets: f32) {
+        self.is_out |= value < -within;
+        self.misses |= value < -slack;
+        self.covers &= value > slack;
+        self.irregular |= value.abs() <= meets;
+    }
+
+    /// The flags of the triangle in this cell.
+    #[inline(always)]
+    pub fn flags(self) -> u32 {
+        let cover = if self.covers { Item::COVERS } else { 0 };
+        let may_cover = if self.covers | self.misses { 0 } else { Item::MAY_COVER };
+        cover | may_cover | if self.irregular { Item::IRREGULAR } else { 0 }
+    }
+}
+
+/// Nearest and farthest depth in a cell with w at its centre. Limits of the whole triangle stand for what is not a number.
+#[inline(always)]
+pub(super) fn depths(w: f32, spread: f32, [least, most]: [f32; 2]) -> [f32; 2] {
+    let (near, far) = (w + spread, w - spread);
+    let near = if (near < most) & (near > f32::NEG_INFINITY) { near } else { most };
+    let far = if (far > least) & (far < f32::INFINITY) { far } else { least };
+    [near, far]
 }
 
 /// Zeros and ones as bits.

@@ -1,6 +1,5 @@
 //! Which way each triangle faces a light, exactly.
 
-use super::projection::{Projected, Projector};
 use crate::geometry::{Sign, planes};
 use glam::Vec3;
 
@@ -16,38 +15,9 @@ pub(super) enum Facing {
     Negative,
 }
 
-/// The exact sign; `corners` are asked for if f32 leaves it open.
-///
-/// On a side the orientation is that of the projection, mirrored where the side looks against its axis. Differences of
-/// coordinates are wrong by 2 delta and their own rounding, 2.2 delta in all, each product by 2.4 delta of the sum
-/// of its factors and 5 delta^2, the area by 2.6 delta of the sum of all four and 10 delta^2.
-#[inline(always)]
-pub(super) fn facing(
-    projector: &Projector,
-    [a, b, c]: [Projected; 3],
-    corners: impl Fn() -> [Vec3; 3],
-) -> Facing {
-    if (a.side == b.side) & (a.side == c.side) & (a.side != Projected::NOWHERE) {
-        let (bu, bv, cu, cv) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
-        let area = bu * cv - bv * cu;
-        let size = (bu.abs() + bv.abs()) + (cu.abs() + cv.abs());
-        let slack = 6.0 * projector.delta * (size + 2.0 * projector.delta);
-        let (above, below) = match a.side & 1 {
-            0 => (Facing::Positive, Facing::Negative),
-            _ => (Facing::Negative, Facing::Positive),
-        };
-        if area > slack {
-            return above;
-        }
-        if area < -slack {
-            return below;
-        }
-    }
-    exactly(projector.light, corners())
-}
-
+/// The exact sign.
 #[cold]
-fn exactly(light: Vec3, corners: [Vec3; 3]) -> Facing {
+pub(super) fn exactly(light: Vec3, corners: [Vec3; 3]) -> Facing {
     match planes::orientation(light, corners) {
         Sign::Zero => Facing::Nothing,
         Sign::Positive => Facing::Positive,
@@ -57,6 +27,8 @@ fn exactly(light: Vec3, corners: [Vec3; 3]) -> Facing {
 
 #[cfg(test)]
 mod tests {
+    use super::super::corners::Corners;
+    use super::super::projection::{Projected, Projector};
     use super::*;
     use proptest::prelude::*;
 
@@ -69,7 +41,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(4000))]
         /// Slivers as seen from the light: two corners and a point near the line between them, on all six sides.
         #[test]
-        fn the_sign_is_the_exact_one(
+        fn a_certain_sign_is_the_exact_one(
             light in coordinates(),
             a in coordinates(),
             b in coordinates(),
@@ -81,7 +53,11 @@ mod tests {
             let corners = [a, b, a + along * (b - a) + width * aside];
             let projector = Projector::new(light, resolution);
             let projected = corners.map(|p| projector.project(p.to_array()));
-            prop_assert_eq!(facing(&projector, projected, || corners), exactly(light, corners));
+            let mut sixteen = Corners::default();
+            sixteen.set(3, projected);
+            if sixteen.side[3] != Projected::NOWHERE && let Some(found) = sixteen.facing(&projector)[3] {
+                prop_assert_eq!(found, exactly(light, corners));
+            }
         }
     }
 }

@@ -6,13 +6,13 @@
 //! that nothing is clipped. On a side d = (x', y', 1), and these are linear functions of the cell. So is
 //! w = N . d / (N . a), N = (b - a) x (c - a).
 
-use super::block::{CellBox, Edge, Patch, Sixteen, any_above, each_bit};
-use super::caster::Caster;
-use super::entries::{Bins, Item};
-use super::facing::Facing;
+use super::bins::{Bins, Caller};
+use super::block::{CellBox, Edge, Patch};
+use super::facing::{Facing, exactly};
 use super::projection::{ROUNDOFF, smaller};
 use super::receivers::Horizon;
-use super::tiles::{BLOCK_EDGE, EDGE, TileGrid};
+use super::survey::Survey;
+use super::tiles::{BLOCK_EDGE, EDGE};
 use crate::geometry::planes::Plane;
 use crate::shadow::light_buffer::cube::Face;
 
@@ -51,10 +51,15 @@ impl Line {
 }
 
 /// A triangle on one side.
-struct OnSide {
+#[derive(Debug)]
+pub(super) struct Large {
+    pub triangle: u32,
+    pub facing: Facing,
+    /// Whether it lies on this side as a whole.
+    pub is_on_one_side: bool,
     face: Face,
+    /// Of the corners in the order of positive orientation.
     edges: [Line; 3],
-    irregular: [bool; 3],
     depth: Line,
     /// What w is wrong by as a share of itself.
     depth_error: f64,
@@ -62,15 +67,16 @@ struct OnSide {
     w_limits: [f32; 2],
 }
 
-impl Caster<'_> {
-    #[inline(always)]
-    pub(super) fn cast_large(&self, triangle: u32, facing: Facing, bins: &mut Bins) {
+impl Survey<'_> {
+    /// Enters a triangle in all tiles in which it may be in front of a receiver, of one side if it lies on that as a whole.
+    pub(super) fn survey_large(&self, triangle: u32, side: Option<u32>, bins: &mut Bins) {
         let light = self.projector.light.as_dvec3();
+        let facing = exactly(self.projector.light, self.scene.corners(triangle));
         let mut corners = self.scene.corners(triangle).map(|p| p.as_dvec3() - light);
-        let mut irregular = self.irregular(triangle, facing);
-        if facing == Facing::Negative {
-            corners.swap(1, 2);
-            irregular.swap(0, 2);
+        match facing {
+            Facing::Nothing => return,
+            Facing::Positive => {}
+            Facing::Negative => corners.swap(1, 2),
         }
         let [a, b, c] = corners;
         let edges = [Plane::through(a, b - a), Plane::through(b, c - b), Plane::through(c, a - c)];
@@ -79,7 +85,8 @@ impl Caster<'_> {
         // The corner is wrong by one roundoff, the normal by 5 of its size, the product by 3: 9 of this, and it is 64.
         let height_error = 32.0 * f64::EPSILON * own.size.dot(a.abs()) / height;
         let half = f64::from(self.projector.half);
-        for face in Face::ALL {
+        let faces = Face::ALL.into_iter().filter(|face| side.is_none_or(|side| face.index() as u32 == side));
+        for face in faces {
             let on_side = corners.map(|p| face.coordinates(p));
             let Some((cells, w_limits)) = self.on_side(on_side) else { continue };
             let edges = edges.each_ref().map(|plane| {
@@ -91,8 +98,32 @@ impl Caster<'_> {
             let known = height > 0.0 && height_error < 1e-3;
             let depth = Line::new(face, half, &own).scaled(1.0 / height);
             let depth_error = if known { 2.0 * height_error } else { f64::INFINITY };
-            let side = OnSide { face, edges, irregular, depth, depth_error, cells, w_limits };
-            self.cast_on_side(triangle, &side, bins);
+            let is_on_one_side = side.is_some();
+            self.enter(
+                Large { triangle, facing, is_on_one_side, face, edges, depth, depth_error, cells, w_limits },
+                bins,
+            );
+        }
+    }
+
+    fn enter(&self, large: Large, bins: &mut Bins) {
+        let tile_of = |cell: u32| cell & !(EDGE - 1);
+        let ([x0, x1], [y0, y1]) = (large.cells.x, large.cells.y);
+        let number = Caller::Large(bins.large.len() as u32);
+        let keys = self.horizon.of_tiles();
+        let mut is_entered = false;
+        for y in (tile_of(y0)..=y1).step_by(EDGE as usize) {
+            for x in (tile_of(x0)..=x1).step_by(EDGE as usize) {
+                let tile = self.grid.tile(large.face.index() as u32, x, y);
+                let key = keys[tile as usize];
+                if key != 0 && large.nearest([x, y], EDGE).is_some_and(|w| key > Horizon::key(w)) {
+                    bins.push(tile, number);
+                    is_entered = true;
+                }
+            }
+        }
+        if is_entered {
+            bins.large.push(large);
         }
     }
 
@@ -131,67 +162,56 @@ impl Caster<'_> {
         Some((cells, if is_normal { w_limits } else { [0.0, f32::INFINITY] }))
     }
 
-    #[inline(always)]
-    fn cast_on_side(&self, triangle: u32, side: &OnSide, bins: &mut Bins) {
-        let tile_of = |cell: u32| cell & !(EDGE - 1);
-        let ([x0, x1], [y0, y1]) = (side.cells.x, side.cells.y);
-        for ty in (tile_of(y0)..=y1).step_by(EDGE as usize) {
-            for tx in (tile_of(x0)..=x1).step_by(EDGE as usize) {
-                let tile = self.tiles.grid.tile(side.face.index() as u32, tx, ty);
-                let Some(first) = self.tiles.first_of(tile) else { continue };
-                for block in [[0, 0], [BLOCK_EDGE, 0], [0, BLOCK_EDGE], [BLOCK_EDGE, BLOCK_EDGE]] {
-                    let block @ [bx, by] = [tx + block[0], ty + block[1]];
-                    if bx <= x1 && by <= y1 && bx + BLOCK_EDGE > x0 && by + BLOCK_EDGE > y0 {
-                        let first = (first + TileGrid::place(bx, by)) as usize;
-                        self.cast_on_block(triangle, side, block, first, bins);
-                    }
-                }
-            }
+}
+
+impl Large {
+    /// At least the w of the triangle in a square of so many cells, or `None` if it is certainly beside that.
+    fn nearest(&self, corner: [u32; 2], edge: u32) -> Option<f32> {
+        let half = f64::from(edge) * 0.5;
+        let middle = corner.map(|cell| f64::from(cell) + half);
+        if self.edges.iter().any(|edge| edge.at(middle) + half * edge.change() < -edge.slack) {
+            return None;
         }
+        let depth = &self.depth;
+        let highest = (depth.at(middle) + half * depth.change() + depth.slack) * (1.0 + self.depth_error);
+        let nearest = smaller(highest as f32 * (1.0 + 4.0 * ROUNDOFF), self.w_limits[1]);
+        // What is not a number, or negative, says nothing.
+        Some(if nearest > 0.0 { nearest } else { self.w_limits[1] })
     }
 
-    #[inline(always)]
-    fn cast_on_block(&self, triangle: u32, side: &OnSide, block: [u32; 2], first: usize, bins: &mut Bins) {
-        // The centre of the block's first cell; that of the block is 1.5 cells on, its corners 2 from there.
+    /// The triangle as the cells of a block see it, and the key of its nearest depth there; `None` if it is certainly beside them.
+    /// `irregular` are the edges 01, 12 and 20 that are not regular, a bit each.
+    pub(super) fn on_block(&self, irregular: u8, block: [u32; 2]) -> Option<(Patch, u32)> {
+        let key = Horizon::key(self.nearest(block, BLOCK_EDGE)?);
+        let irregular = [0, 1, 2].map(|i| irregular >> i & 1 == 1);
+        let irregular = match self.facing {
+            Facing::Negative => [irregular[2], irregular[1], irregular[0]],
+            _ => irregular,
+        };
+        // The centre of the block's first cell.
         let at = block.map(|cell| f64::from(cell) + 0.5);
-        let middle = at.map(|x| x + 1.5);
-        if side.edges.iter().any(|edge| edge.at(middle) + 2.0 * edge.change() < -edge.slack) {
-            return;
-        }
-        let keys = self.horizon.block(first);
-        let depth = &side.depth;
-        let highest = (depth.at(middle) + 2.0 * depth.change() + depth.slack) * (1.0 + side.depth_error);
-        let nearest = smaller(highest as f32 * (1.0 + 4.0 * ROUNDOFF), side.w_limits[1]);
-        let nearest = if nearest > 0.0 { nearest } else { side.w_limits[1] };
-        let key = Horizon::key(nearest);
-        if !any_above(keys, key) {
-            return;
-        }
         let up = 1.0 + 4.0 * ROUNDOFF;
         // Rounding to f32 and three operations, on what is at most this.
         let rounding = |line: &Line| 8.0 * f64::from(ROUNDOFF) * (line.at(at).abs() + 4.0 * line.change());
         let edges = std::array::from_fn(|i| {
-            let edge = &side.edges[i];
+            let edge = &self.edges[i];
             let slack = (edge.slack + rounding(edge)) as f32 * up;
             let within = (0.5 * edge.change()) as f32 * up + slack;
-            let meets = if side.irregular[i] { within } else { -1.0 };
-            Edge { a: edge.a as f32, b: edge.b as f32, at: edge.at(at) as f32, out: -within, slack, meets }
+            let meets = if irregular[i] { within } else { -1.0 };
+            Edge { a: edge.a as f32, b: edge.b as f32, at: edge.at(at) as f32, within, slack, meets }
         });
+        let depth = &self.depth;
         let reached = depth.at(at).abs() + 4.0 * depth.change();
-        let wrong = depth.slack + side.depth_error * reached + 2.0 * rounding(depth);
+        let wrong = depth.slack + self.depth_error * reached + 2.0 * rounding(depth);
         let patch = Patch {
             edges,
             origin: block,
-            cells: side.cells,
+            cells: self.cells,
             w: depth.at(at) as f32,
             dw: [depth.a as f32, depth.b as f32],
             spread: (0.5 * depth.change() + wrong) as f32 * up,
-            w_limits: side.w_limits,
+            w_limits: self.w_limits,
         };
-        let mut sixteen = Sixteen::default();
-        each_bit(sixteen.fill(&patch, block, keys, key), |i| {
-            let item = Item::new(triangle, sixteen.flags[i] | Item::LARGE);
-            bins.push(first + i, item, sixteen.near[i], sixteen.far[i]);
-        });
+        Some((patch, key))
     }
 }

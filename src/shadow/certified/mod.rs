@@ -11,41 +11,44 @@
 //! a receiver's cell is that of its exact point. So no answer depends on the resolution, the number of threads or the
 //! instruction set.
 
-mod adjacency;
+mod bins;
 mod block;
-mod caster;
+mod cell_lists;
 mod certificate;
+mod corners;
 mod dispatch;
-mod entries;
+mod edges;
 mod facing;
 mod headers;
 mod large;
+mod lists;
 mod projection;
 mod receivers;
 mod small;
+mod survey;
 mod tiles;
 mod walk;
 
-pub use adjacency::Adjacency;
-
 use super::Counters;
 use crate::error::{Error, Result};
-use crate::float_environment::{InStandardFloats, StandardFloats};
+use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
 use crate::memory::MemoryLimit;
 use crate::scene::{PrimitiveIndex, Scene};
 use crate::visibility::{RoundedPoints, SurfacePoint};
-use caster::Caster;
+use bins::{Bins, Budget};
+use cell_lists::Item;
 use certificate::{Header, Kinds, Record, Run};
-use entries::{Bins, Budget, Entry, Item};
-use facing::{Facing, facing};
 use glam::Vec3;
 use headers::Headers;
+use lists::{Lister, Part, Scratch};
 use projection::{Projected, Projector};
 use rayon::prelude::*;
 use receivers::{CHUNK, Filed};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use survey::{Cast, Survey};
+use tiles::Tiles;
 use walk::{LANES, Walk};
 
 /// The largest number of cells along an edge.
@@ -55,8 +58,6 @@ pub const MOST_CELLS: u32 = 4096;
 pub struct Certified<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Of its triangles.
-    pub adjacency: &'a Adjacency,
     /// A light at a point.
     pub light: Vec3,
     /// What the kernels run on.
@@ -94,10 +95,10 @@ const TILES: usize = 64;
 const CELLS: usize = TILES * tiles::AREA as usize;
 /// Triangles that a worker takes at a time.
 const TRIANGLES: usize = 2048;
-/// Workers that keep lists of their own: each has a number for every cell.
+/// Workers that keep lists of their own: each has a number for every tile.
 const MOST_WORKERS: usize = 16;
-/// Entries that are made at most if memory is no matter: 2 GiB.
-const MOST_ENTRIES: u64 = 1 << 27;
+/// The most bytes for what depends on the number of cells, if memory is no matter.
+const MOST_BYTES: u64 = 4 << 30;
 
 /// Headers and lists of all cells.
 struct Lists {
@@ -106,6 +107,8 @@ struct Lists {
     /// Of [`CELLS`] cells each.
     records: Vec<Vec<Record>>,
     kinds: Kinds,
+    /// Triangles in cells.
+    entries: u64,
 }
 
 impl Lists {
@@ -180,26 +183,18 @@ impl Certified<'_> {
         let scene = self.scene;
         let projector = Projector::new(self.light, resolution);
         let mut filed = Filed::new(self.set, &projector, scene, points, rounded);
-        let projected: Vec<Projected> =
-            scene.vertices.par_iter().in_standard_floats().map(|v| projector.project(v.to_array())).collect();
-        let facing = self.facing(&projector, &projected);
-        let caster = Caster {
-            scene,
-            adjacency: self.adjacency,
-            projector,
-            tiles: &filed.tiles,
-            horizon: &filed.horizon,
-            projected: &projected,
-            facing: &facing,
-        };
-        let cell_bytes =
-            filed.tiles.cells() * (size_of::<Header>() + size_of::<Run>() + 2 * size_of::<u32>());
-        let most = (memory.left().saturating_sub(cell_bytes as u64) / 2 / size_of::<Entry>() as u64)
-            .min(MOST_ENTRIES);
-        let budget = Budget::new(most as usize);
-        let bins = self.cast(&caster, &budget)?;
-        let lists = lists(&filed, &bins);
-        let entry_bytes: usize = bins.iter().map(Bins::bytes).sum();
+        let projected = self.projected(&projector);
+        let grid = filed.tiles.grid;
+        let cell_bytes = filed.tiles.cells() * (size_of::<Header>() + size_of::<Run>() + size_of::<u32>())
+            + grid.count() * 2 * size_of::<u32>();
+        let budget = Budget::new(memory.left().saturating_sub(cell_bytes as u64).min(MOST_BYTES) as usize);
+        let horizon = &filed.horizon;
+        let survey = Survey { scene, cast: self.cast(), projector, grid, horizon, projected: &projected };
+        let bins = self.bins(&survey, &budget)?;
+        let lister =
+            Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
+        let lists = self.lists(&lister, &filed.tiles)?;
+        let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
         let record_bytes: usize = lists.records.iter().map(|r| r.capacity() * size_of::<Record>()).sum();
         let mut work = Work {
             resolution,
@@ -207,12 +202,12 @@ impl Certified<'_> {
             touched: lists.kinds.touched,
             once: lists.kinds.once,
             covered: lists.kinds.covered,
-            entries: bins.iter().map(|bins| bins.count() as u64).sum(),
-            bytes: (cell_bytes + entry_bytes + record_bytes) as u64,
+            entries: lists.entries,
+            bytes: (cell_bytes + bin_bytes + record_bytes) as u64,
             ..Work::default()
         };
         drop(bins);
-        self.leave_open_what_is_not_cast(&mut filed, rounded, &facing);
+        self.leave_open_what_is_not_cast(&mut filed, rounded);
         let undecided = self.by_headers(&projector, &filed, &lists, occluded);
         work.by_header = (points.len() - undecided.len()) as u64;
         work.counters.cells = points.len() as u64;
@@ -224,48 +219,42 @@ impl Certified<'_> {
         Some(work)
     }
 
-    /// How all triangles face the light, those that are not cast here as nothing.
-    fn facing(&self, projector: &Projector, projected: &[Projected]) -> Vec<Facing> {
-        let scene = self.scene;
-        let of = |vertices: [u32; 3]| {
-            let corners = vertices.map(|vertex| projected[vertex as usize]);
-            facing(projector, corners, || vertices.map(|vertex| scene.vertices[vertex as usize]))
-        };
-        let triangles = scene.triangles.par_iter().in_standard_floats();
-        if self.all_are_cast() {
-            return triangles.map(|triangle| of(triangle.vertices)).collect();
-        }
-        let numbers = (0..scene.triangles.len() as u32).into_par_iter().in_standard_floats();
-        let of_plain = |number: u32| match is_plain(scene, number) {
-            true => of(scene.triangles[number as usize].vertices),
-            false => Facing::Nothing,
-        };
-        numbers.map(of_plain).collect()
+    /// All vertices on the sides of the cube.
+    fn projected(&self, projector: &Projector) -> Vec<Projected> {
+        let vertices = &self.scene.vertices;
+        let mut projected = vec![Projected::default(); vertices.len()];
+        vertices.par_chunks(CHUNK).zip(projected.par_chunks_mut(CHUNK)).for_each(|(vertices, projected)| {
+            let _floats = StandardFloats::new();
+            projection::project(self.set, projector, vertices, projected);
+        });
+        projected
     }
 
-    /// Whether everything in the scene is a triangle that blocks light and is whole.
-    fn all_are_cast(&self) -> bool {
+    /// Which triangles are cast.
+    fn cast(&self) -> Cast {
         let scene = self.scene;
         let casts = |object: &crate::scene::Object| object.shadowing.casts;
-        scene.curved.is_empty()
+        let all = scene.curved.is_empty()
             && scene.alpha_masks.is_empty()
             && scene.objects.iter().all(casts)
-            && scene.materials.iter().all(|material| material.transmission.is_none())
+            && scene.materials.iter().all(|material| material.transmission.is_none());
+        if all { Cast::All } else { Cast::Plain }
     }
 
-    fn cast<'b>(&self, caster: &Caster<'_>, budget: &'b Budget) -> Option<Vec<Bins<'b>>> {
+    /// Triangles by tile, or `None` if there are too many.
+    fn bins<'b>(&self, survey: &Survey<'_>, budget: &'b Budget) -> Option<Vec<Bins<'b>>> {
         let count = self.scene.triangles.len();
         let next = AtomicUsize::new(0);
         let worker = |_| {
             let _floats = StandardFloats::new();
-            let mut bins = Bins::new(caster.tiles.cells(), budget);
+            let mut bins = Bins::new(&survey.grid, budget);
             loop {
                 let first = next.fetch_add(TRIANGLES, Relaxed);
                 if first >= count || bins.overflowed {
                     return bins;
                 }
                 let end = count.min(first + TRIANGLES);
-                caster::cast(self.set, caster, first as u32..end as u32, &mut bins);
+                survey::survey(self.set, survey, first as u32..end as u32, &mut bins);
             }
         };
         let workers = rayon::current_num_threads().min(MOST_WORKERS);
@@ -273,14 +262,43 @@ impl Certified<'_> {
         bins.iter().all(|bins| !bins.overflowed).then_some(bins)
     }
 
+    /// Lists of all cells, or `None` if they are too long.
+    fn lists(&self, lister: &Lister<'_>, tiles: &Tiles) -> Option<Lists> {
+        let cells = tiles.cells();
+        let mut headers = vec![Header::EMPTY; cells];
+        let mut runs = vec![Run::default(); cells];
+        let parts: Vec<Part> = headers
+            .par_chunks_mut(CELLS)
+            .zip(runs.par_chunks_mut(CELLS))
+            .zip(tiles.stored().par_chunks(TILES))
+            .enumerate()
+            .map_init(Scratch::new, |scratch, (part, ((headers, runs), tiles))| {
+                let _floats = StandardFloats::new();
+                let mut of_part = Part::new(headers, runs);
+                lists::list(self.set, lister, tiles, part * CELLS, scratch, &mut of_part);
+                of_part
+            })
+            .collect();
+        if parts.iter().any(|part| part.overflowed) {
+            return None;
+        }
+        let (mut kinds, mut entries, mut records) = (Kinds::default(), 0, Vec::new());
+        for part in parts {
+            kinds += part.kinds;
+            entries += part.entries;
+            records.push(part.records);
+        }
+        Some(Lists { headers, runs, records, kinds, entries })
+    }
+
     /// Certificates light what lies on a triangle that is cast; all else asks the lists.
-    fn leave_open_what_is_not_cast(&self, filed: &mut Filed, rounded: &RoundedPoints, facing: &[Facing]) {
+    fn leave_open_what_is_not_cast(&self, filed: &mut Filed, rounded: &RoundedPoints) {
         let is_bare = |&primitive: &PrimitiveIndex| primitive == RoundedPoints::NO_PRIMITIVE;
-        if self.all_are_cast() && !rounded.primitives.par_iter().any(is_bare) {
+        if self.cast() == Cast::All && !rounded.primitives.par_iter().any(is_bare) {
             return;
         }
-        (&mut filed.depths, &rounded.primitives).into_par_iter().for_each(|(depth, primitive)| {
-            if facing.get(*primitive as usize).is_none_or(|&facing| facing == Facing::Nothing) {
+        (&mut filed.depths, &rounded.primitives).into_par_iter().for_each(|(depth, &primitive)| {
+            if primitive == RoundedPoints::NO_PRIMITIVE || !is_plain(self.scene, primitive) {
                 *depth = f32::NAN;
             }
         });
@@ -358,29 +376,4 @@ fn open_queries(first: usize, cells: &[u32], undecided: &[bool]) -> Vec<u64> {
         }
     }
     open
-}
-
-/// Lists of all cells out of what was cast.
-fn lists(filed: &Filed, bins: &[Bins]) -> Lists {
-    let cells = filed.tiles.cells();
-    let mut headers = vec![Header::EMPTY; cells];
-    let mut runs = vec![Run::default(); cells];
-    let part = |(part, (headers, runs)): (usize, (&mut [Header], &mut [Run]))| {
-        let _floats = StandardFloats::new();
-        let (mut records, mut entries, mut kinds) = (Vec::new(), Vec::new(), Kinds::default());
-        for (i, (header, run)) in headers.iter_mut().zip(runs).enumerate() {
-            let cell = part * CELLS + i;
-            entries.clear();
-            bins.iter().for_each(|bins| bins.gather(cell, &mut entries));
-            (*header, *run) =
-                certificate::certify(&mut entries, filed.horizon.of(cell), &mut records, &mut kinds);
-        }
-        (records, kinds)
-    };
-    let parts = headers.par_chunks_mut(CELLS).zip(runs.par_chunks_mut(CELLS)).enumerate();
-    let parts: Vec<(Vec<Record>, Kinds)> = parts.map(part).collect();
-    let mut kinds = Kinds::default();
-    parts.iter().for_each(|(_, of_part)| kinds += *of_part);
-    let records = parts.into_iter().map(|(records, _)| records).collect();
-    Lists { headers, runs, records, kinds }
 }

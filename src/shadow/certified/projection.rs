@@ -11,13 +11,14 @@
 //! 2 H, by 7 r H in all: [`Projector::delta`] is 10 r H. Depths outside 2^-60 to 2^60 are not projected, so that
 //! neither a quotient nor a product overflows, and what underflows is far below r H.
 
+use super::dispatch::for_instruction_sets;
 use glam::Vec3;
 
 /// Unit roundoff of f32.
 pub(super) const ROUNDOFF: f32 = 1.0 / 16_777_216.0;
 
 /// A point on a side of the cube.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(16))]
 pub(super) struct Projected {
     /// Along x', in cells.
@@ -101,6 +102,18 @@ impl Projector {
     #[inline(always)]
     pub fn error_of(&self, size: f32, w: f32) -> f32 {
         8.0 * ROUNDOFF + (2.0 * ROUNDOFF) * (size * w)
+    }
+}
+
+for_instruction_sets! {
+    /// Projects points.
+    pub(super) fn project = project_body, (projector: &Projector, points: &[Vec3], projected: &mut [Projected])
+}
+
+#[inline(always)]
+fn project_body(projector: &Projector, points: &[Vec3], projected: &mut [Projected]) {
+    for (projected, point) in projected.iter_mut().zip(points) {
+        *projected = projector.project(point.to_array());
     }
 }
 

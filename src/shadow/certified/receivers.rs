@@ -2,7 +2,7 @@
 
 use super::dispatch::for_instruction_sets;
 use super::projection::{Projected, Projector, cell_and_border};
-use super::tiles::{Marks, TileGrid, Tiles};
+use super::tiles::{AREA, TileGrid, Tiles};
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
@@ -27,24 +27,43 @@ const MARGIN: f32 = 63.0 / 64.0;
 const MOST_ERROR: f32 = 1.0 / 512.0;
 
 /// For each cell the w beyond which nobody asks, as a key that is 0 where nobody does and grows with the distance.
-pub(super) struct Horizon(Vec<u32>);
+pub(super) struct Horizon {
+    cells: Vec<u32>,
+    /// The largest of each tile of the grid.
+    tiles: Vec<u32>,
+}
 
 impl Horizon {
+    fn new(tiles: &Tiles, keys: &[AtomicU32]) -> Horizon {
+        let cells: Vec<u32> = keys[..tiles.cells()].iter().map(|key| key.load(Relaxed)).collect();
+        let mut of_tiles = vec![0; tiles.grid.count()];
+        for (tile, keys) in tiles.stored().into_iter().zip(cells.chunks(AREA as usize)) {
+            of_tiles[tile as usize] = keys.iter().copied().max().expect("a tile has cells");
+        }
+        Horizon { cells, tiles: of_tiles }
+    }
+
     /// The key of a w, not negative.
     #[inline(always)]
     pub fn key(w: f32) -> u32 {
         !w.to_bits()
     }
 
-    /// The keys of a block of cells.
+    /// The keys of the cells of a tile.
     #[inline(always)]
-    pub fn block(&self, first: usize) -> &[u32; super::tiles::BLOCK] {
-        self.0[first..first + super::tiles::BLOCK].try_into().expect("a block")
+    pub fn tile(&self, first: usize) -> &[u32; AREA as usize] {
+        self.cells[first..first + AREA as usize].try_into().expect("a tile")
+    }
+
+    /// The largest key of each tile of the grid.
+    #[inline(always)]
+    pub fn of_tiles(&self) -> &[u32] {
+        &self.tiles
     }
 
     /// What is withheld from a cell has at most this w.
     pub fn of(&self, cell: usize) -> f32 {
-        match self.0[cell] {
+        match self.cells[cell] {
             0 => f32::INFINITY,
             key => f32::from_bits(!key),
         }
@@ -71,42 +90,29 @@ impl Filed {
         rounded: &RoundedPoints,
     ) -> Filed {
         let grid = TileGrid::new(projector.resolution);
+        let tiles = Tiles::new(grid);
+        // No more tiles than receivers. Pages that nobody writes to cost nothing.
+        let most = grid.count().min(points.len()) * AREA as usize;
+        let horizon: Vec<AtomicU32> = bytemuck::zeroed_vec(most);
         let mut cells = vec![0; points.len()];
-        let mut places = vec![0; points.len()];
         let mut depths = vec![0.0; points.len()];
-        let marks = Marks::new(&grid);
-        (points.par_chunks(CHUNK), cells.par_chunks_mut(CHUNK))
+        (points.par_chunks(CHUNK), cells.par_chunks_mut(CHUNK), depths.par_chunks_mut(CHUNK))
             .into_par_iter()
-            .zip(places.par_chunks_mut(CHUNK))
-            .zip(depths.par_chunks_mut(CHUNK))
             .enumerate()
-            .for_each(|(chunk, (((points, tiles), places), depths))| {
+            .for_each(|(chunk, (points, cells, depths))| {
                 let _floats = StandardFloats::new();
+                let mut places = [0; CHUNK];
+                let places = &mut places[..points.len()];
                 let rounded = rounded.slice(chunk * CHUNK, points.len());
-                locate(set, projector, &grid, rounded, tiles, places, depths);
-                let mut last = OPEN;
+                locate(set, projector, &grid, rounded, cells, places, depths);
                 for (i, point) in points.iter().enumerate() {
-                    if tiles[i] == OPEN {
-                        (tiles[i], places[i], depths[i]) = locate_exactly(projector, &grid, scene, point);
-                    }
-                    if tiles[i] != last {
-                        last = tiles[i];
-                        if last != OPEN {
-                            marks.mark(last);
-                        }
+                    if cells[i] == OPEN {
+                        (cells[i], places[i], depths[i]) = locate_exactly(projector, &grid, scene, point);
                     }
                 }
-            });
-        let tiles = Tiles::new(grid, &marks);
-        let horizon: Vec<AtomicU32> = (0..tiles.cells()).map(|_| AtomicU32::new(0)).collect();
-        (cells.par_chunks_mut(CHUNK), places.par_chunks(CHUNK))
-            .into_par_iter()
-            .zip(depths.par_chunks(CHUNK))
-            .for_each(|((cells, places), depths)| {
-                let _floats = StandardFloats::new();
                 file(&tiles, &horizon, cells, places, depths);
             });
-        let horizon = Horizon(horizon.into_iter().map(AtomicU32::into_inner).collect());
+        let horizon = Horizon::new(&tiles, &horizon);
         Filed { tiles, cells, depths, horizon }
     }
 }
@@ -122,22 +128,22 @@ fn file(tiles: &Tiles, horizon: &[AtomicU32], cells: &mut [u32], places: &[u8], 
     };
     let (mut tile, mut first) = (OPEN, 0);
     let (mut cell, mut farthest) = (OPEN, f32::INFINITY);
-    for (i, &w) in depths.iter().enumerate() {
-        if cells[i] == OPEN {
+    for ((at, place), &w) in cells.iter_mut().zip(places).zip(depths) {
+        if *at == OPEN {
             continue;
         }
-        if cells[i] != tile {
-            tile = cells[i];
-            first = tiles.first_of(tile).expect("a marked tile");
+        if *at != tile {
+            tile = *at;
+            first = tiles.claim(tile);
         }
-        cells[i] = first + u32::from(places[i]);
+        *at = first + u32::from(*place);
         // What is not known is as far as can be.
         let w = if w > 0.0 { w } else { 0.0 };
-        if cells[i] != cell {
+        if *at != cell {
             if cell != OPEN {
                 raise(cell, farthest);
             }
-            (cell, farthest) = (cells[i], w);
+            (cell, farthest) = (*at, w);
         } else if w < farthest {
             farthest = w;
         }

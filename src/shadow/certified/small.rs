@@ -1,70 +1,39 @@
-//! Triangles that lie on one side and touch few cells: all in f32, on the side.
+//! Triangles that lie on one side and touch few cells, sixteen at a time: all in f32, on the side.
 
-use super::block::{CellBox, Edge, Patch, Sixteen, any_above, each_bit};
-use super::caster::Caster;
-use super::entries::{Bins, Item};
+use super::block::{CellBox, Cover, Edge, Patch, Sixteen, bits, depths};
+use super::corners::{Corners, LANES};
 use super::facing::Facing;
-use super::projection::{Projected, ROUNDOFF, larger, smaller};
 use super::receivers::Horizon;
-use super::tiles::TileGrid;
+use super::tiles::{AREA, EDGE, TileGrid};
+use super::projection::{Projector, ROUNDOFF, cell_and_border, larger};
 
-/// The widest that a small triangle may be, in cells. The bounds below hold for up to R of them.
-const MOST: f32 = 12.0;
 
-impl Caster<'_> {
-    /// The cells that a triangle touches whose corners are rounded to one side, if they are few and certainly all of
-    /// them are on it.
-    #[inline(always)]
-    pub(super) fn small_box(&self, [a, b, c]: [Projected; 3]) -> Option<CellBox> {
-        let (delta, end) = (self.projector.delta, self.projector.resolution as f32);
-        let range =
-            |a: f32, b: f32, c: f32| [smaller(smaller(a, b), c) - delta, larger(larger(a, b), c) + delta];
-        let (u, v) = (range(a.u, b.u, c.u), range(a.v, b.v, c.v));
-        // At a seam it may touch the next side too, and its corners may even lie there.
-        let is_inside = (u[0] > 0.0) & (u[1] < end) & (v[0] > 0.0) & (v[1] < end);
-        let is_small = (u[1] - u[0] < MOST) & (v[1] - v[0] < MOST);
-        let cells = |[low, high]: [f32; 2]| [low as u32, high as u32];
-        (is_inside & is_small).then(|| CellBox { x: cells(u), y: cells(v) })
-    }
+/// An edge of each triangle; see [`Edge`].
+#[derive(Debug, Default)]
+struct Edges {
+    a: [f32; LANES],
+    b: [f32; LANES],
+    at: [f32; LANES],
+    slack: [f32; LANES],
+    within: [f32; LANES],
+}
 
-    #[inline(always)]
-    pub(super) fn cast_small(
-        &self,
-        triangle: u32,
-        facing: Facing,
-        corners: [Projected; 3],
-        cells: CellBox,
-        bins: &mut Bins,
-    ) {
-        let [a, b, c] = corners;
-        // A quotient of depths between f32 numbers is wrong by 2.1 r.
-        let w_limits = [
-            smaller(smaller(a.w, b.w), c.w) * (1.0 - 8.0 * ROUNDOFF),
-            larger(larger(a.w, b.w), c.w) * (1.0 + 8.0 * ROUNDOFF),
-        ];
-        let key = Horizon::key(w_limits[1]);
-        let mut patch = None;
-        for by in CellBox::blocks(cells.y) {
-            for bx in CellBox::blocks(cells.x) {
-                let tile = self.tiles.grid.tile(a.side, bx, by);
-                let Some(first) = self.tiles.first_of(tile) else { continue };
-                let first = (first + TileGrid::place(bx, by)) as usize;
-                let keys = self.horizon.block(first);
-                if !any_above(keys, key) {
-                    continue;
-                }
-                let patch =
-                    patch.get_or_insert_with(|| self.patch(triangle, facing, corners, cells, w_limits));
-                let mut sixteen = Sixteen::default();
-                each_bit(sixteen.fill(patch, [bx, by], keys, key), |i| {
-                    let item = Item::new(triangle, sixteen.flags[i]);
-                    bins.push(first + i, item, sixteen.near[i], sixteen.far[i]);
-                });
-            }
-        }
-    }
+/// Edges and depths of sixteen triangles on their sides.
+#[derive(Debug, Default)]
+pub(super) struct Patches {
+    edges: [Edges; 3],
+    columns: [[u32; LANES]; 2],
+    rows: [[u32; LANES]; 2],
+    w: [f32; LANES],
+    dw: [[f32; LANES]; 2],
+    spread: [f32; LANES],
+    w_limits: [[f32; LANES]; 2],
+    /// Whether corners 1 and 2 changed places.
+    swapped: [u32; LANES],
+}
 
-    /// Edges and depths of a triangle on its side.
+impl Patches {
+    /// Looks at triangles that are small.
     ///
     /// An edge from p to q says E = du (y - p.v) - dv (x - p.u) of a place (x, y). Differences of two projected
     /// coordinates are wrong by 2.2 delta (with their own rounding, at most r R = delta / 5), those of a place and a
@@ -74,56 +43,131 @@ impl Caster<'_> {
     ///
     /// Depths: with weights B = E / A, A the area, w = w0 + B1 (w1 - w0) + B2 (w2 - w0). Over the box the weights are
     /// at most N = reach (sum of all four differences) / (A - slack) together, E and A wrong by the slack, so that the
-    /// weights are by (1 + N) slack / (A - slack) each; w0, w1, w2 by 2.1 r of themselves, and roundings add 6 r of the largest
+    /// weights are by (1 + N) slack / (A - slack) each; w0, w1, w2 by 2.1 r of themselves, and roundings add 7 r of the largest
     /// w and of each term: (1 + N) (2 range slack / (A - slack) + 12 r w_max). Taken twice, since the change of w over half
     /// a cell is computed with it as well. Where that is no number, or infinite, the limits of the whole triangle stand.
     #[inline(always)]
-    fn patch(
+    pub fn fill(&mut self, projector: &Projector, corners: &Corners, facing: &[Facing; LANES]) {
+        let delta = projector.delta;
+        for i in 0..LANES {
+            let is_swapped = (facing[i] == Facing::Positive) == (corners.side[i] & 1 == 1);
+            let of = |of: &[[f32; LANES]; 3]| {
+                let [a, b, c] = [of[0][i], of[1][i], of[2][i]];
+                if is_swapped { [a, c, b] } else { [a, b, c] }
+            };
+            let (u, v, w) = (of(&corners.u), of(&corners.v), of(&corners.w));
+            let [columns, rows] = corners.limits(i, delta).map(|limits| limits.map(|x| cell_and_border(x).0));
+            let centre = [columns[0] as i32 as f32 + 0.5, rows[0] as i32 as f32 + 0.5];
+            let cells_across = (columns[1] - columns[0]).wrapping_add(rows[1] - rows[0]);
+            let reach = cells_across as i32 as f32 + 3.0;
+            for (j, edge) in self.edges.iter_mut().enumerate() {
+                let (p, q) = (j, if j == 2 { 0 } else { j + 1 });
+                let (du, dv) = (u[q] - u[p], v[q] - v[p]);
+                let length = du.abs() + dv.abs();
+                let slack = (5.0 * delta) * (length + reach);
+                edge.a[i] = -dv;
+                edge.b[i] = du;
+                edge.at[i] = du * (centre[1] - v[p]) - dv * (centre[0] - u[p]);
+                edge.slack[i] = slack;
+                edge.within[i] = 0.5 * length + slack;
+            }
+            let (qu, qv, ru, rv) = (u[1] - u[0], v[1] - v[0], u[2] - u[0], v[2] - v[0]);
+            let size = (qu.abs() + qv.abs()) + (ru.abs() + rv.abs());
+            let area = qu * rv - qv * ru;
+            let (qw, rw) = (w[1] - w[0], w[2] - w[0]);
+            let per_area = 1.0 / area;
+            let dw = [(qw * rv - rw * qv) * per_area, (rw * qu - qw * ru) * per_area];
+            let slack = (5.0 * delta) * (size + reach);
+            let per_certain_area = 1.0 / larger(area - slack, 0.0);
+            let limits = corners.w_limits(i);
+            let weights = 1.0 + reach * size * per_certain_area;
+            let range = limits[1] - limits[0];
+            let wrong =
+                weights * (4.0 * range * (slack * per_certain_area) + 24.0 * ROUNDOFF * limits[1]);
+            self.w[i] = (w[0] + dw[0] * (centre[0] - u[0])) + dw[1] * (centre[1] - v[0]);
+            self.spread[i] = 0.5 * (dw[0].abs() + dw[1].abs()) + wrong;
+            for k in 0..2 {
+                self.dw[k][i] = dw[k];
+                self.columns[k][i] = columns[k];
+                self.rows[k][i] = rows[k];
+                self.w_limits[k][i] = limits[k];
+            }
+            self.swapped[i] = u32::from(is_swapped);
+        }
+    }
+
+    /// Columns and rows of the cells that one touches.
+    #[inline(always)]
+    pub fn size(&self, lane: usize) -> [u32; 2] {
+        [&self.columns, &self.rows].map(|ends| ends[1][lane] - ends[0][lane] + 1)
+    }
+
+    /// What each is in one cell of its box, so many columns and rows from the first; the place of that cell in the tile; and a
+    /// bit for each that may meet it and that somebody looks into there. `irregular` and `keys` are as for [`Patches::patch`]
+    /// and [`Sixteen::fill`], of all lanes and of the cells of the tile.
+    #[inline(always)]
+    pub fn in_cell(
         &self,
-        triangle: u32,
-        facing: Facing,
-        [a, b, c]: [Projected; 3],
-        cells: CellBox,
-        w_limits: [f32; 2],
-    ) -> Patch {
-        let delta = self.projector.delta;
-        let [e0, e1, e2] = self.irregular(triangle, facing);
-        let looks_against = a.side & 1 == 1;
-        let (corners, irregular) = match (facing == Facing::Positive) != looks_against {
-            true => ([a, b, c], [e0, e1, e2]),
-            false => ([a, c, b], [e2, e1, e0]),
-        };
-        let origin = [cells.x[0], cells.y[0]];
-        let centre = origin.map(|cell| cell as f32 + 0.5);
-        let reach = (cells.x[1] - cells.x[0] + cells.y[1] - cells.y[0]) as f32 + 3.0;
+        [dx, dy]: [u32; 2],
+        corner: [u32; 2],
+        irregular: &[u32; LANES],
+        keys: &[u32; AREA as usize],
+        sixteen: &mut Sixteen,
+        places: &mut [u32; LANES],
+    ) -> u32 {
+        let (x, y) = (dx as f32, dy as f32);
+        let mut live = [0u32; LANES];
+        for i in 0..LANES {
+            let (column, row) = (self.columns[0][i] + dx, self.rows[0][i] + dy);
+            let (in_tile_x, in_tile_y) = (column.wrapping_sub(corner[0]), row.wrapping_sub(corner[1]));
+            let is_there = (column <= self.columns[1][i])
+                & (row <= self.rows[1][i])
+                & (in_tile_x < EDGE)
+                & (in_tile_y < EDGE);
+            let place = TileGrid::place(column, row);
+            let limits = self.w_limits.each_ref().map(|limit| limit[i]);
+            let is_asked = is_there & (keys[(place & (AREA - 1)) as usize] > Horizon::key(limits[1]));
+            let w = (self.w[i] + self.dw[0][i] * x) + self.dw[1][i] * y;
+            let mut cover = Cover::WHOLE;
+            for (j, edge) in self.edges.iter().enumerate() {
+                // Corners 1 and 2 may have changed places.
+                let of_corners = if self.swapped[i] == 1 { 2 - j as u32 } else { j as u32 };
+                let meets = if irregular[i] >> of_corners & 1 == 1 { edge.within[i] } else { -1.0 };
+                cover.edge((edge.at[i] + edge.a[i] * x) + edge.b[i] * y, edge.within[i], edge.slack[i], meets);
+            }
+            let [near, far] = depths(w, self.spread[i], limits);
+            (sixteen.near[i], sixteen.far[i], sixteen.flags[i]) = (near, far, cover.flags());
+            places[i] = place;
+            live[i] = u32::from(is_asked & !cover.is_out & (near >= far));
+        }
+        bits(&live)
+    }
+
+    /// One of them, whose edges 01, 12 and 20 are irregular that have a bit in `irregular`.
+    #[inline(always)]
+    pub fn patch(&self, lane: usize, irregular: u8) -> Patch {
         let edges = std::array::from_fn(|i| {
-            let (p, q) = (corners[i], corners[(i + 1) % 3]);
-            let (du, dv) = (q.u - p.u, q.v - p.v);
-            let length = du.abs() + dv.abs();
-            let slack = (5.0 * delta) * (length + reach);
-            let at = du * (centre[1] - p.v) - dv * (centre[0] - p.u);
-            let within = 0.5 * length + slack;
-            Edge { a: -dv, b: du, at, out: -within, slack, meets: if irregular[i] { within } else { -1.0 } }
+            let edge = &self.edges[i];
+            let of_corners = if self.swapped[lane] == 1 { 2 - i } else { i };
+            let is_irregular = irregular >> of_corners & 1 == 1;
+            let within = edge.within[lane];
+            Edge {
+                a: edge.a[lane],
+                b: edge.b[lane],
+                at: edge.at[lane],
+                within,
+                slack: edge.slack[lane],
+                meets: if is_irregular { within } else { -1.0 },
+            }
         });
-        let [p, q, r] = corners;
-        let (qu, qv, ru, rv) = (q.u - p.u, q.v - p.v, r.u - p.u, r.v - p.v);
-        let size = (qu.abs() + qv.abs()) + (ru.abs() + rv.abs());
-        let area = qu * rv - qv * ru;
-        let (qw, rw) = (q.w - p.w, r.w - p.w);
-        let dw = [(qw * rv - rw * qv) / area, (rw * qu - qw * ru) / area];
-        let slack = (5.0 * delta) * (size + reach);
-        let certain_area = larger(area - slack, 0.0);
-        let weights = 1.0 + reach * size / certain_area;
-        let range = w_limits[1] - w_limits[0];
-        let wrong = weights * (4.0 * range * (slack / certain_area) + 24.0 * ROUNDOFF * w_limits[1]);
         Patch {
             edges,
-            origin,
-            cells,
-            w: (p.w + dw[0] * (centre[0] - p.u)) + dw[1] * (centre[1] - p.v),
-            dw,
-            spread: 0.5 * (dw[0].abs() + dw[1].abs()) + wrong,
-            w_limits,
+            origin: [self.columns[0][lane], self.rows[0][lane]],
+            cells: CellBox { x: self.columns.map(|end| end[lane]), y: self.rows.map(|end| end[lane]) },
+            w: self.w[lane],
+            dw: self.dw.map(|dw| dw[lane]),
+            spread: self.spread[lane],
+            w_limits: self.w_limits.map(|limit| limit[lane]),
         }
     }
 }

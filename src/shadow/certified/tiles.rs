@@ -3,7 +3,8 @@
 //! The sixteen cells of a block of 4 x 4 follow each other, so that what a block holds of one kind is one cache line
 //! of four-byte numbers.
 
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Cells along the edge of a tile.
 pub(super) const EDGE: u32 = 8;
@@ -37,6 +38,17 @@ impl TileGrid {
         (side * self.per_edge + y / EDGE) * self.per_edge + x / EDGE
     }
 
+    /// The side of a tile, and column and row of its first cell.
+    pub fn corner(&self, tile: u32) -> (u32, [u32; 2]) {
+        let (row, column) = (tile / self.per_edge, tile % self.per_edge);
+        (row / self.per_edge, [column * EDGE, row % self.per_edge * EDGE])
+    }
+
+    /// Tiles along an edge of a side.
+    pub fn per_edge(&self) -> u32 {
+        self.per_edge
+    }
+
     /// The place of a cell in its tile: by blocks, and by rows in these.
     #[inline(always)]
     pub fn place(x: u32, y: u32) -> u32 {
@@ -44,60 +56,55 @@ impl TileGrid {
     }
 }
 
-/// Which tiles are asked for.
-pub(super) struct Marks(Vec<AtomicBool>);
-
-impl Marks {
-    /// None yet.
-    pub fn new(grid: &TileGrid) -> Marks {
-        Marks((0..grid.count()).map(|_| AtomicBool::new(false)).collect())
-    }
-
-    /// Marks one.
-    #[inline(always)]
-    pub fn mark(&self, tile: u32) {
-        let mark = &self.0[tile as usize];
-        // Written once: the line stays with all threads that read it.
-        if !mark.load(Relaxed) {
-            mark.store(true, Relaxed);
-        }
-    }
-}
-
-/// Where the cells of each tile are.
+/// Where the cells of each tile are: tiles get their place when somebody first asks for it.
 pub(super) struct Tiles {
     pub grid: TileGrid,
-    first: Vec<u32>,
-    cells: u32,
+    /// One more than the number of each tile that is stored, 0 for others.
+    numbers: Vec<AtomicU32>,
+    count: Mutex<u32>,
 }
 
 impl Tiles {
-    const NONE: u32 = u32::MAX;
+    /// None is stored yet.
+    pub fn new(grid: TileGrid) -> Tiles {
+        let numbers = (0..grid.count()).map(|_| AtomicU32::new(0)).collect();
+        Tiles { grid, numbers, count: Mutex::new(0) }
+    }
 
-    /// Room for marked tiles.
-    pub fn new(grid: TileGrid, marks: &Marks) -> Tiles {
-        let mut cells = 0;
-        let room = |mark: &AtomicBool| match mark.load(Relaxed) {
-            true => {
-                cells += AREA;
-                cells - AREA
-            }
-            false => Tiles::NONE,
-        };
-        let first = marks.0.iter().map(room).collect();
-        Tiles { grid, first, cells }
+    /// The first cell of a tile, which is stored from now on.
+    #[inline(always)]
+    pub fn claim(&self, tile: u32) -> u32 {
+        match self.numbers[tile as usize].load(Relaxed) {
+            0 => self.claim_new(tile),
+            number => (number - 1) * AREA,
+        }
+    }
+
+    #[cold]
+    fn claim_new(&self, tile: u32) -> u32 {
+        let mut count = self.count.lock().expect("no panic while it is held");
+        let number = &self.numbers[tile as usize];
+        if number.load(Relaxed) == 0 {
+            *count += 1;
+            number.store(*count, Relaxed);
+        }
+        (number.load(Relaxed) - 1) * AREA
     }
 
     /// Cells that are stored.
     pub fn cells(&self) -> usize {
-        self.cells as usize
+        (*self.count.lock().expect("no panic while it is held") * AREA) as usize
     }
 
-    /// The first cell of a tile, if it is stored.
-    #[inline(always)]
-    pub fn first_of(&self, tile: u32) -> Option<u32> {
-        let first = self.first[tile as usize];
-        (first != Tiles::NONE).then_some(first)
+    /// The tiles that are stored, in the order of their cells.
+    pub fn stored(&self) -> Vec<u32> {
+        let mut stored = vec![0; self.cells() / AREA as usize];
+        for (tile, number) in (0..).zip(&self.numbers) {
+            if let Some(number) = number.load(Relaxed).checked_sub(1) {
+                stored[number as usize] = tile;
+            }
+        }
+        stored
     }
 }
 
@@ -116,16 +123,20 @@ mod tests {
     }
 
     #[test]
-    fn only_marked_tiles_have_cells() {
+    fn only_tiles_that_were_asked_for_have_cells() {
         let grid = TileGrid::new(20);
-        let marks = Marks::new(&grid);
-        marks.mark(grid.tile(5, 19, 19));
-        marks.mark(grid.tile(0, 8, 0));
-        let tiles = Tiles::new(grid, &marks);
+        let tiles = Tiles::new(grid);
+        let (one, other) = (grid.tile(5, 19, 19), grid.tile(0, 8, 0));
+        assert_eq!([tiles.claim(one), tiles.claim(other), tiles.claim(one)], [0, 64, 0]);
         assert_eq!(tiles.cells(), 128);
-        assert_eq!(tiles.first_of(grid.tile(0, 8, 0)), Some(0));
-        assert_eq!(tiles.first_of(grid.tile(5, 16, 16)), Some(64));
-        assert_eq!(tiles.first_of(grid.tile(0, 0, 0)), None);
+        assert_eq!(tiles.stored(), [one, other]);
         assert_eq!(grid.count(), 54);
+    }
+
+    #[test]
+    fn the_corner_of_a_tile_is_found_again() {
+        let grid = TileGrid::new(20);
+        assert_eq!(grid.corner(grid.tile(5, 19, 9)), (5, [16, 8]));
+        assert_eq!(grid.corner(grid.tile(0, 0, 0)), (0, [0, 0]));
     }
 }

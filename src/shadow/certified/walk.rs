@@ -3,7 +3,7 @@
 use super::block::{bits, each_bit};
 use super::certificate::Record;
 use super::dispatch::for_instruction_sets;
-use super::entries::Item;
+use super::cell_lists::Item;
 use super::projection::{Projected, Projector, ROUNDOFF, larger, smaller};
 use super::tiles::BLOCK;
 use crate::geometry::LightSpace;
@@ -149,7 +149,7 @@ fn walk_body(
         let asked = live & !lanes.on(triangle);
         counters.tests += u64::from(asked.count_ones());
         let corners = walk.scene.triangles[triangle as usize].vertices.map(|v| walk.projected[v as usize]);
-        let is_flat = !record.item.has(Item::LARGE) && lanes.side == Some(corners[0].side);
+        let is_flat = !record.item.has(Item::IN_SPACE) && lanes.side == Some(corners[0].side);
         let (blocked, open) = match is_flat {
             true => lanes.against(corners, record.near),
             false => (0, u32::MAX),

@@ -1,0 +1,285 @@
+//! The lists of one tile after the other: its triangles, their common edges, what each is in each cell, and certificates.
+
+use super::bins::{Bins, Budget, Caller};
+use super::block::{Patch, Sixteen, any_above, each_bit};
+use super::cell_lists::{CellLists, Item};
+use super::certificate::{Entries, Header, Kinds, Record, Run, certify};
+use super::corners::{Corners, LANES};
+use super::dispatch::for_instruction_sets;
+use super::edges::Edges;
+use super::facing::{Facing, exactly};
+use super::projection::{Projected, Projector};
+use super::receivers::Horizon;
+use super::small::Patches;
+use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
+use crate::scene::Scene;
+
+/// All that the lists of tiles are made of.
+pub(super) struct Lister<'a> {
+    pub scene: &'a Scene,
+    pub projector: Projector,
+    pub grid: TileGrid,
+    pub horizon: &'a Horizon,
+    /// The scene's vertices.
+    pub projected: &'a [Projected],
+    pub bins: &'a [Bins<'a>],
+    pub budget: &'a Budget,
+}
+
+/// Triangles of at most so many cells across are entered cell by cell.
+const MOST_TINY: u32 = 3;
+
+/// A tile: its first column and row, and the keys of its cells.
+struct Seen<'a> {
+    corner: [u32; 2],
+    keys: &'a [u32; AREA as usize],
+}
+
+impl Seen<'_> {
+    /// The keys of a block, by the place of its first cell.
+    #[inline(always)]
+    fn block(&self, place: usize) -> &[u32; BLOCK] {
+        self.keys[place..place + BLOCK].try_into().expect("a block")
+    }
+}
+
+/// Headers and lists of some tiles.
+pub(super) struct Part<'a> {
+    pub headers: &'a mut [Header],
+    pub runs: &'a mut [Run],
+    pub records: Vec<Record>,
+    pub kinds: Kinds,
+    /// Triangles in cells.
+    pub entries: u64,
+    /// Bytes that were asked for.
+    pub granted: usize,
+    /// Whether memory was asked for in vain: what follows is missing.
+    pub overflowed: bool,
+}
+
+impl Part<'_> {
+    /// Empty ones.
+    pub fn new<'a>(headers: &'a mut [Header], runs: &'a mut [Run]) -> Part<'a> {
+        let (records, kinds) = (Vec::new(), Kinds::default());
+        Part { headers, runs, records, kinds, entries: 0, granted: 0, overflowed: false }
+    }
+}
+
+/// The places of one tile after the other.
+pub(super) struct Scratch {
+    triangles: Vec<[u32; 3]>,
+    numbers: Vec<u32>,
+    facing: Vec<Facing>,
+    irregular: Vec<u8>,
+    corners: Vec<Corners>,
+    patches: Patches,
+    edges: Edges,
+    cells: CellLists,
+    entries: Entries,
+    granted: usize,
+}
+
+impl Scratch {
+    pub fn new() -> Scratch {
+        Scratch {
+            triangles: Vec::new(),
+            numbers: Vec::new(),
+            facing: Vec::new(),
+            irregular: Vec::new(),
+            corners: Vec::new(),
+            patches: Patches::default(),
+            edges: Edges::default(),
+            cells: CellLists::new(),
+            entries: Entries::default(),
+            granted: 0,
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        let triangle = size_of::<[u32; 3]>() + size_of::<u32>() + size_of::<Facing>() + 1;
+        self.triangles.capacity() * triangle
+            + self.corners.capacity() * size_of::<Corners>()
+            + self.entries.bytes()
+            + self.edges.bytes()
+            + self.cells.bytes()
+    }
+}
+
+impl Lister<'_> {
+    /// The small triangles of a tile, their corners and how they face the light.
+    #[inline(always)]
+    fn gather_small(&self, tile: u32, scratch: &mut Scratch) {
+        let Scratch { triangles, numbers, facing, corners, .. } = scratch;
+        triangles.clear();
+        numbers.clear();
+        facing.clear();
+        corners.clear();
+        for bins in self.bins {
+            bins.each_of(tile, |caller| {
+                if let Caller::Small(number) = caller {
+                    numbers.push(number);
+                }
+            });
+        }
+        triangles.extend(numbers.iter().map(|&number| self.scene.triangles[number as usize].vertices));
+        for (sixteen, numbers) in triangles.chunks(LANES).zip(numbers.chunks(LANES)) {
+            let mut of_sixteen = Corners::default();
+            for (lane, vertices) in sixteen.iter().enumerate() {
+                of_sixteen.set(lane, vertices.map(|vertex| self.projected[vertex as usize]));
+            }
+            let found = of_sixteen.facing(&self.projector);
+            facing.extend(numbers.iter().zip(found).map(|(&number, found)| {
+                found.unwrap_or_else(|| exactly(self.projector.light, self.scene.corners(number)))
+            }));
+            corners.push(of_sixteen);
+        }
+    }
+
+    /// Enters all triangles of a tile in its cells.
+    #[inline(always)]
+    fn enter(&self, tile: u32, first_cell: usize, scratch: &mut Scratch) {
+        self.gather_small(tile, scratch);
+        let small = scratch.triangles.len();
+        let mut large = Vec::new();
+        for bins in self.bins {
+            bins.each_of(tile, |caller| {
+                if let Caller::Large(place) = caller {
+                    large.push(&bins.large[place as usize]);
+                }
+            });
+        }
+        for large in &large {
+            scratch.triangles.push(self.scene.triangles[large.triangle as usize].vertices);
+            scratch.facing.push(large.facing);
+        }
+        let Scratch { triangles, numbers, facing, irregular, corners, patches, edges, cells, .. } = scratch;
+        edges.find(triangles, facing, irregular);
+        cells.clear();
+        let (_, corner) = self.grid.corner(tile);
+        let keys = self.horizon.tile(first_cell);
+        let seen = Seen { corner, keys };
+        for (sixteen, of_sixteen) in corners.iter().enumerate() {
+            let first = sixteen * LANES;
+            let count = (small - first).min(LANES);
+            let mut of_lanes = [Facing::Nothing; LANES];
+            of_lanes[..count].copy_from_slice(&facing[first..first + count]);
+            patches.fill(&self.projector, of_sixteen, &of_lanes);
+            let there = self.enter_tiny(&numbers[first..first + count], &irregular[first..], &of_lanes, &seen, patches, cells);
+            each_bit(there, |lane| {
+                let patch = patches.patch(lane, irregular[first + lane]);
+                self.enter_small(numbers[first + lane], &patch, &seen, cells);
+            });
+        }
+        for (large, &irregular) in large.into_iter().zip(&irregular[small..]) {
+            let flags = if large.is_on_one_side { 0 } else { Item::IN_SPACE };
+            for place in (0..AREA as usize).step_by(BLOCK) {
+                let (x, y) = (place as u32 / 16 % 2, place as u32 / 32);
+                let block = [corner[0] + x * BLOCK_EDGE, corner[1] + y * BLOCK_EDGE];
+                let Some((patch, key)) = large.on_block(irregular, block) else { continue };
+                let keys = seen.block(place);
+                if any_above(keys, key) {
+                    let mut sixteen = Sixteen::default();
+                    let live = sixteen.fill(&patch, block, keys, key);
+                    cells.enter_block(place, large.triangle, flags, &sixteen, live);
+                }
+            }
+        }
+    }
+}
+
+impl Lister<'_> {
+    /// Enters those of sixteen triangles that touch a handful of cells, cell by cell, and returns a bit for each of the others.
+    #[inline(always)]
+    fn enter_tiny(
+        &self,
+        numbers: &[u32],
+        irregular: &[u8],
+        facing: &[Facing; LANES],
+        seen: &Seen,
+        patches: &Patches,
+        cells: &mut CellLists,
+    ) -> u32 {
+        let (mut tiny, mut others, mut most) = (0u32, 0u32, [0, 0]);
+        let mut of_lanes = [0; LANES];
+        for lane in 0..numbers.len() {
+            of_lanes[lane] = u32::from(irregular[lane]);
+            let [width, height] = patches.size(lane);
+            if facing[lane] == Facing::Nothing {
+                continue;
+            }
+            if width <= MOST_TINY && height <= MOST_TINY {
+                tiny |= 1 << lane;
+                most = [width.max(most[0]), height.max(most[1])];
+            } else {
+                others |= 1 << lane;
+            }
+        }
+        let (mut sixteen, mut places) = (Sixteen::default(), [0; LANES]);
+        for y in 0..most[1] {
+            for x in 0..most[0] {
+                let live =
+                    patches.in_cell([x, y], seen.corner, &of_lanes, seen.keys, &mut sixteen, &mut places);
+                each_bit(live & tiny, |lane| {
+                    let item = Item::new(numbers[lane], sixteen.flags[lane]);
+                    cells.enter(places[lane] as usize, item, sixteen.near[lane], sixteen.far[lane]);
+                });
+            }
+        }
+        others
+    }
+
+    #[inline(always)]
+    fn enter_small(&self, triangle: u32, patch: &Patch, seen: &Seen, cells: &mut CellLists) {
+        let key = Horizon::key(patch.w_limits[1]);
+        let block_of = |cell: u32, corner: u32| (cell & !(BLOCK_EDGE - 1)).max(corner);
+        let last = |cell: u32, corner: u32| cell.min(corner + EDGE - 1);
+        let [cx, cy] = seen.corner;
+        for y in (block_of(patch.cells.y[0], cy)..=last(patch.cells.y[1], cy)).step_by(BLOCK_EDGE as usize) {
+            for x in (block_of(patch.cells.x[0], cx)..=last(patch.cells.x[1], cx)).step_by(BLOCK_EDGE as usize) {
+                let place = TileGrid::place(x, y) as usize;
+                let keys = seen.block(place);
+                if any_above(keys, key) {
+                    let mut sixteen = Sixteen::default();
+                    let live = sixteen.fill(patch, [x, y], keys, key);
+                    cells.enter_block(place, triangle, 0, &sixteen, live);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn list_body(lister: &Lister<'_>, tiles: &[u32], first_cell: usize, scratch: &mut Scratch, part: &mut Part<'_>) {
+    for (i, &tile) in tiles.iter().enumerate() {
+        if lister.bins.iter().all(|bins| bins.is_empty(tile)) {
+            continue;
+        }
+        let first = i * AREA as usize;
+        lister.enter(tile, first_cell + first, scratch);
+        part.entries += scratch.cells.count() as u64;
+        for cell in 0..AREA as usize {
+            let horizon = lister.horizon.of(first_cell + first + cell);
+            let Scratch { cells, entries, .. } = scratch;
+            (part.headers[first + cell], part.runs[first + cell]) =
+                certify(cells, cell, horizon, entries, &mut part.records, &mut part.kinds);
+        }
+        let records = part.records.capacity() * size_of::<Record>();
+        let scratch_bytes = scratch.bytes();
+        part.overflowed = !lister.budget.grant(&mut scratch.granted, scratch_bytes)
+            || !lister.budget.grant(&mut part.granted, records);
+        if part.overflowed {
+            return;
+        }
+    }
+}
+
+for_instruction_sets! {
+    /// Makes headers and lists of tiles whose cells follow each other, the first of which is `first_cell`.
+    pub(super) fn list = list_body, (
+        lister: &Lister<'_>,
+        tiles: &[u32],
+        first_cell: usize,
+        scratch: &mut Scratch,
+        part: &mut Part<'_>,
+    )
+}

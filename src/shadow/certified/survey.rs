@@ -1,0 +1,141 @@
+//! Which triangles may be in front of a receiver, tile by tile: sixteen triangles at a time.
+
+use super::bins::{Bins, Caller};
+use super::block::{bits, each_bit};
+use super::dispatch::for_instruction_sets;
+use super::is_plain;
+use super::corners::{Corners, LANES};
+use super::projection::{Projected, Projector, cell_and_border};
+use super::receivers::Horizon;
+use super::tiles::{EDGE, TileGrid};
+use crate::scene::Scene;
+use std::ops::Range;
+
+/// The widest that a small triangle may be, in cells. The bounds for small ones hold for up to R of them.
+const MOST: f32 = 24.0;
+
+/// Which triangles of a scene are cast.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cast {
+    All,
+    /// Those that are [plain](is_plain).
+    Plain,
+}
+
+/// A light's view of a scene.
+pub(super) struct Survey<'a> {
+    pub scene: &'a Scene,
+    pub cast: Cast,
+    pub projector: Projector,
+    pub grid: TileGrid,
+    pub horizon: &'a Horizon,
+    /// The scene's vertices.
+    pub projected: &'a [Projected],
+}
+
+/// The tiles that sixteen triangles touch on their sides.
+#[derive(Debug, Default)]
+struct Spans {
+    /// First and last column of tiles, first and last row.
+    columns: [[u32; LANES]; 2],
+    rows: [[u32; LANES]; 2],
+    /// Receivers with a smaller key are in front of all of it.
+    key: [u32; LANES],
+    /// Whether it lies on one side, and is small.
+    on_one_side: [u32; LANES],
+    small: [u32; LANES],
+    /// The key of the tile, where it is one.
+    tile_key: [u32; LANES],
+}
+
+impl Survey<'_> {
+    #[inline(always)]
+    fn spans(&self, corners: &Corners) -> Spans {
+        let mut spans = Spans::default();
+        let (delta, end) = (self.projector.delta, self.projector.resolution as f32);
+        let per_edge = self.grid.per_edge();
+        let keys = self.horizon.of_tiles();
+        let last = keys.len() - 1;
+        for i in 0..LANES {
+            let [u, v] = corners.limits(i, delta);
+            // At a seam it may touch the next side too, and its corners may even lie there.
+            let is_inside = (u[0] > 0.0) & (u[1] < end) & (v[0] > 0.0) & (v[1] < end);
+            let is_on_one_side = is_inside & (corners.side[i] != Projected::NOWHERE);
+            let is_small = (u[1] - u[0] < MOST) & (v[1] - v[0] < MOST) & is_on_one_side;
+            let tile = |x: f32| cell_and_border(x).0 / EDGE;
+            let (columns, rows) = (u.map(tile), v.map(tile));
+            for end in 0..2 {
+                spans.columns[end][i] = columns[end];
+                spans.rows[end][i] = rows[end];
+            }
+            let key = Horizon::key(corners.w_limits(i)[1]);
+            spans.key[i] = if is_on_one_side { key } else { 0 };
+            spans.on_one_side[i] = u32::from(is_on_one_side);
+            spans.small[i] = u32::from(is_small);
+            let tile = corners.side[i].wrapping_mul(per_edge).wrapping_add(rows[0]);
+            let tile = tile.wrapping_mul(per_edge).wrapping_add(columns[0]) as usize;
+            let is_one = (columns[0] == columns[1]) & (rows[0] == rows[1]) & is_small;
+            // SAFETY: no more than the last.
+            let key = unsafe { *keys.get_unchecked(if tile < last { tile } else { last }) };
+            spans.tile_key[i] = if is_one { key } else { u32::MAX };
+        }
+        spans
+    }
+
+    /// Tiles of a span with a receiver that the triangle may be in front of.
+    #[inline(always)]
+    fn tiles(&self, spans: &Spans, lane: usize, side: u32) -> impl Iterator<Item = u32> {
+        let (columns, rows) = (spans.columns.map(|end| end[lane]), spans.rows.map(|end| end[lane]));
+        let (per_edge, key) = (self.grid.per_edge(), spans.key[lane]);
+        let row = move |y: u32| (side * per_edge + y) * per_edge;
+        (rows[0]..=rows[1])
+            .flat_map(move |y| (columns[0]..=columns[1]).map(move |x| row(y) + x))
+            .filter(move |&tile| self.horizon.of_tiles()[tile as usize] > key)
+    }
+
+    #[inline(always)]
+    fn sixteen(&self, first: u32, count: usize, bins: &mut Bins) {
+        let mut corners = Corners::default();
+        for lane in 0..count {
+            let vertices = self.scene.triangles[first as usize + lane].vertices;
+            corners.set(lane, vertices.map(|vertex| self.projected[vertex as usize]));
+        }
+        let spans = self.spans(&corners);
+        let mut asked = [0u32; LANES];
+        for (i, asked) in asked.iter_mut().enumerate() {
+            *asked = u32::from(spans.tile_key[i] > spans.key[i]);
+        }
+        let present = u32::MAX >> (32 - count);
+        each_bit(bits(&asked) & present, |lane| {
+            let triangle = first + lane as u32;
+            if self.cast == Cast::Plain && !is_plain(self.scene, triangle) {
+                return;
+            }
+            let side = corners.side[lane];
+            if spans.small[lane] == 1 {
+                for tile in self.tiles(&spans, lane, side) {
+                    bins.push(tile, Caller::Small(triangle));
+                }
+            } else if spans.on_one_side[lane] == 0 {
+                self.survey_large(triangle, None, bins);
+            } else if self.tiles(&spans, lane, side).next().is_some() {
+                self.survey_large(triangle, Some(side), bins);
+            }
+        });
+    }
+}
+
+#[inline(always)]
+fn survey_body(survey: &Survey<'_>, triangles: Range<u32>, bins: &mut Bins<'_>) {
+    let mut first = triangles.start;
+    while first < triangles.end && !bins.overflowed {
+        let count = (triangles.end - first).min(LANES as u32);
+        survey.sixteen(first, count as usize, bins);
+        first += count;
+    }
+}
+
+for_instruction_sets! {
+    /// Enters some triangles in all tiles in which they may be in front of a receiver.
+    pub(super) fn survey = survey_body, (survey: &Survey<'_>, triangles: Range<u32>, bins: &mut Bins<'_>)
+}
