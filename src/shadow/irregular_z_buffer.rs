@@ -48,9 +48,7 @@ impl<'a> IrregularZBuffer<'a> {
         let (whole, rest) = match input.light {
             LightPosition::Towards(_) => (None, Some(index)),
             LightPosition::At(light) => {
-                let adjacency = index.adjacency(scene);
-                let memory = input.memory;
-                let whole = Certified { scene, adjacency, light, set: instruction_set, memory };
+                let whole = Certified { scene, light, set: instruction_set, memory: input.memory };
                 (Some(whole), index.beside_whole_triangles(scene))
             }
         };
@@ -122,8 +120,7 @@ impl ShadowTester for IrregularZBuffer<'_> {
     }
 
     fn bytes(&self) -> usize {
-        let adjacency = self.whole.as_ref().map_or(0, |whole| whole.adjacency.bytes());
         let rest = self.rest.as_ref().map_or(0, |rest| rest.bytes());
-        adjacency + rest + self.bytes.load(Relaxed) as usize
+        rest + self.bytes.load(Relaxed) as usize
     }
 }

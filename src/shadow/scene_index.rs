@@ -1,7 +1,7 @@
 //! What belongs to the scene and not to one light, made once for all of them.
 
 use super::Solids;
-use super::certified::{Adjacency, is_plain};
+use super::certified::is_plain;
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
@@ -23,7 +23,6 @@ pub struct SceneIndex {
     bounds: OnceLock<(Vec3, Vec3)>,
     convexity: OnceLock<Vec<Option<Convexity>>>,
     solids: OnceLock<Solids>,
-    adjacency: OnceLock<Adjacency>,
     beside_whole: OnceLock<Option<Box<SceneIndex>>>,
 }
 
@@ -84,11 +83,6 @@ impl SceneIndex {
     /// The closed solids of the scene that this index was made of, found when they are first asked for.
     pub fn solids(&self, scene: &Scene) -> &Solids {
         found(&self.solids, || Solids::new(scene))
-    }
-
-    /// What lies across the edges of the scene's triangles, found when it is first asked for.
-    pub fn adjacency(&self, scene: &Scene) -> &Adjacency {
-        self.adjacency.get_or_init(|| Adjacency::new(scene.vertices.len(), &scene.triangles))
     }
 
     /// The same index without triangles that block light and have no holes; `None` if nothing else is cast.

@@ -35,7 +35,7 @@ impl Budget {
 pub(super) enum Caller {
     /// A triangle of the scene that lies on one side and is small.
     Small(u32),
-    /// One of [`Bins::large`].
+    /// One that is not small, by its place in [`Bins`].
     Large(u32),
 }
 
@@ -89,8 +89,7 @@ struct Head {
 pub(super) struct Bins<'b> {
     heads: Vec<Head>,
     links: Vec<Link>,
-    /// Triangles that are not small.
-    pub large: Vec<Large>,
+    large: Vec<Large>,
     budget: &'b Budget,
     granted: usize,
     /// Whether memory was asked for in vain: what follows is missing.
@@ -122,6 +121,23 @@ impl<'b> Bins<'b> {
             self.links[head.link as usize].callers[head.count as usize] = caller.into();
             self.heads[tile as usize].count += 1;
         }
+    }
+
+    /// The place that the next triangle that is not small has.
+    pub fn next_large(&self) -> Caller {
+        Caller::Large(self.large.len() as u32)
+    }
+
+    /// Keeps a triangle that is not small.
+    pub fn push_large(&mut self, large: Large) {
+        if self.large.len() < self.large.capacity() || self.may_grow() {
+            self.large.push(large);
+        }
+    }
+
+    /// A triangle that is not small.
+    pub fn large(&self, place: u32) -> &Large {
+        &self.large[place as usize]
     }
 
     #[cold]

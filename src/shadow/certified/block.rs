@@ -1,7 +1,7 @@
 //! A triangle against the sixteen cells of a block at once.
 
 use super::cell_lists::Item;
-use super::tiles::{BLOCK, BLOCK_EDGE};
+use super::tiles::BLOCK;
 
 /// What an edge says of the centre of a cell: a x + b y + at, positive inside, x and y counted from a first cell.
 #[derive(Debug, Clone, Copy)]
@@ -22,14 +22,6 @@ pub(super) struct Edge {
 pub(super) struct CellBox {
     pub x: [u32; 2],
     pub y: [u32; 2],
-}
-
-impl CellBox {
-    /// The first cells of the blocks of some columns or rows.
-    #[inline(always)]
-    pub fn blocks([first, last]: [u32; 2]) -> impl Iterator<Item = u32> {
-        (first & !(BLOCK_EDGE - 1)..=last).step_by(BLOCK_EDGE as usize)
-    }
 }
 
 /// A triangle as the cells of some blocks see it, relative to the centre of the cell `origin`.

@@ -17,7 +17,7 @@ pub(super) struct Entry {
 }
 
 /// A triangle by its number in the scene, and four flags.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Item(u32);
 
 impl Item {
@@ -87,7 +87,14 @@ impl CellLists {
 
     /// Enters a triangle in the cells of a block that have a bit in `live`; `first` is the first of them.
     #[inline(always)]
-    pub fn enter_block(&mut self, first: usize, triangle: u32, more_flags: u32, sixteen: &Sixteen, live: u32) {
+    pub fn enter_block(
+        &mut self,
+        first: usize,
+        triangle: u32,
+        more_flags: u32,
+        sixteen: &Sixteen,
+        live: u32,
+    ) {
         each_bit(live, |i| {
             let item = Item::new(triangle, sixteen.flags[i] | more_flags);
             self.enter(first + i, item, sixteen.near[i], sixteen.far[i]);
@@ -98,6 +105,13 @@ impl CellLists {
     #[inline(always)]
     pub fn is_empty(&self, cell: usize) -> bool {
         self.heads[cell] == 0
+    }
+
+    /// What a cell holds if that is one entry.
+    #[inline(always)]
+    pub fn only(&self, cell: usize) -> Option<Entry> {
+        let entry = self.entries[self.heads[cell] as usize];
+        (self.heads[cell] != 0 && entry.next == 0).then_some(entry)
     }
 
     /// What a cell holds, the last that was entered first.
@@ -134,9 +148,8 @@ mod tests {
         let sixteen = Sixteen { flags: [Item::COVERS; BLOCK], near: [4.0; BLOCK], far: [2.0; BLOCK] };
         lists.enter_block(16, 7, 0, &sixteen, 0b101);
         lists.enter(18, Item::new(8, Item::IN_SPACE), 3.0, 1.0);
-        let triangles = |lists: &CellLists, cell| {
-            lists.of(cell).map(|entry| entry.item.triangle()).collect::<Vec<_>>()
-        };
+        let triangles =
+            |lists: &CellLists, cell| lists.of(cell).map(|entry| entry.item.triangle()).collect::<Vec<_>>();
         assert_eq!([16, 17, 18].map(|cell| triangles(&lists, cell)), [vec![7], vec![], vec![8, 7]]);
         let nearest = lists.of(18).next().expect("two entries");
         assert!(nearest.item.has(Item::IN_SPACE) && !nearest.item.has(Item::COVERS));

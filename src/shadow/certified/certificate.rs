@@ -1,7 +1,7 @@
 //! What a cell decides by itself (TRUTH, "Certified cells").
 
 use super::cell_lists::{CellLists, Item};
-use super::projection::{larger, smaller};
+use super::projection::larger;
 use std::ops::AddAssign;
 
 /// Two depths that decide most queries of a cell.
@@ -52,20 +52,26 @@ impl AddAssign for Kinds {
     }
 }
 
-/// The entries of a cell side by side.
+/// The entries of a cell side by side, at least [`FEW`]: what is not there has negative depths. Depths are the bits of
+/// numbers that are not negative, which have their order; unlike numbers they have a largest that takes no branches.
 #[derive(Debug, Default)]
 pub(super) struct Entries {
-    near: Vec<f32>,
-    far: Vec<f32>,
+    near: Vec<i32>,
+    far: Vec<i32>,
     items: Vec<Item>,
     sorted: Vec<Record>,
 }
 
+/// As many entries as most cells have at most: loops over so many have no branches.
+const FEW: usize = 16;
+
 /// The entries of one surface of a cell together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Surface {
-    /// At most its smallest w.
-    far: f32,
+    /// At least its largest w, as bits.
+    near: i32,
+    /// At most its smallest.
+    far: i32,
     /// Entries that cover the centre.
     covers: u32,
     /// Whether it is certain which do, and no irregular edge of it meets the cell.
@@ -73,61 +79,94 @@ struct Surface {
     /// How many entries it has.
     count: usize,
     /// At least the largest w behind it, 0 if nothing is there.
-    next: f32,
+    next: i32,
 }
 
 impl Entries {
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
-        self.near.capacity() * (2 * size_of::<f32>() + size_of::<Item>()) + self.sorted.capacity() * size_of::<Record>()
+        self.near.capacity() * (2 * size_of::<f32>() + size_of::<Item>())
+            + self.sorted.capacity() * size_of::<Record>()
     }
 
-    fn gather(&mut self, lists: &CellLists, cell: usize) {
+    /// Takes in what a cell holds, and returns how much that is.
+    #[inline(always)]
+    fn gather(&mut self, lists: &CellLists, cell: usize) -> usize {
         let Entries { near, far, items, .. } = self;
-        near.clear();
-        far.clear();
-        items.clear();
+        if near.is_empty() {
+            (*near, *far, *items) = (vec![-1; FEW], vec![-1; FEW], vec![Item::default(); FEW]);
+        }
+        // Over from the last cell.
+        near[..FEW].fill(-1);
+        far[..FEW].fill(-1);
+        let mut count = 0;
         for entry in lists.of(cell) {
             debug_assert!(entry.near >= entry.far, "an interval");
-            near.push(entry.near);
-            far.push(entry.far);
-            items.push(entry.item);
+            if count == near.len() {
+                near.extend([-1; FEW]);
+                far.extend([-1; FEW]);
+                items.extend([Item::default(); FEW]);
+            }
+            (near[count], far[count], items[count]) = (bits(entry.near), bits(entry.far), entry.item);
+            count += 1;
         }
+        count
     }
 
-    /// The nearest surface of what is no nearer than `from`.
+    /// The nearest surface of what is no nearer than `from`, among so many entries.
     #[inline(always)]
-    fn surface(&self, from: f32) -> Surface {
-        let (near, far, items) = (&self.near[..], &self.far[..self.near.len()], &self.items[..self.near.len()]);
-        let mut nearest = 0.0;
-        for near in near {
-            nearest = larger(if *near <= from { *near } else { 0.0 }, nearest);
+    fn surface(&self, count: usize, from: i32) -> Surface {
+        match count {
+            5..=FEW => surface::<FEW>(&self.near[..FEW], &self.far[..FEW], &self.items[..FEW], from),
+            _ => surface::<0>(&self.near[..count], &self.far[..count], &self.items[..count], from),
         }
-        // Of all that overlaps what is known of the surface, until that is all.
-        let mut end = nearest;
-        loop {
-            let mut farther = end;
-            for (near, far) in near.iter().zip(far) {
-                let overlaps = (*near >= end) & (*near <= from);
-                farther = smaller(if overlaps { *far } else { end }, farther);
-            }
-            if farther == end {
-                break;
-            }
-            end = farther;
-        }
-        let (mut covers, mut flags, mut count, mut next) = (0, 0, 0, 0.0);
-        for (near, item) in near.iter().zip(items) {
-            let is_of_it = (*near >= end) & (*near <= from);
-            let of_it = if is_of_it { item.flags() } else { 0 };
-            covers += of_it & Item::COVERS;
-            flags |= of_it;
-            count += u32::from(is_of_it);
-            next = larger(if *near < end { *near } else { 0.0 }, next);
-        }
-        let is_certain = flags & (Item::IRREGULAR | Item::MAY_COVER) == 0;
-        Surface { far: end, covers, is_certain, count: count as usize, next }
     }
+}
+
+/// Of as many entries as `COUNT` says, unless that is 0.
+#[inline(always)]
+fn surface<const COUNT: usize>(near: &[i32], far: &[i32], items: &[Item], from: i32) -> Surface {
+    let count = if COUNT == 0 { near.len() } else { COUNT };
+    let (near, far, items) = (&near[..count], &far[..count], &items[..count]);
+    let mut nearest = 0;
+    for &near in near {
+        nearest = nearest.max(if near <= from { near } else { 0 });
+    }
+    // Of all that overlaps what is known of the surface, until that is all.
+    let mut end = nearest;
+    loop {
+        let mut farther = end;
+        for (&near, &far) in near.iter().zip(far) {
+            let overlaps = (near >= end) & (near <= from);
+            farther = farther.min(if overlaps { far } else { end });
+        }
+        if farther == end {
+            break;
+        }
+        end = farther;
+    }
+    let (mut covers, mut flags, mut count, mut next) = (0, 0, 0, 0);
+    for (&near, item) in near.iter().zip(items) {
+        let is_of_it = (near >= end) & (near <= from);
+        let of_it = if is_of_it { item.flags() } else { 0 };
+        covers += of_it & Item::COVERS;
+        flags |= of_it;
+        count += u32::from(is_of_it);
+        next = next.max(if near < end { near } else { 0 });
+    }
+    let is_certain = flags & (Item::IRREGULAR | Item::MAY_COVER) == 0;
+    Surface { near: nearest, far: end, covers, is_certain, count: count as usize, next }
+}
+
+/// A depth as bits, which must not be negative. Both zeros are one.
+#[inline(always)]
+fn bits(depth: f32) -> i32 {
+    (depth + 0.0).to_bits() as i32
+}
+
+#[inline(always)]
+fn depth(bits: i32) -> f32 {
+    f32::from_bits(bits as u32)
 }
 
 /// Makes header and list of a cell. What is withheld from it has at most the w of the horizon.
@@ -151,36 +190,47 @@ pub(super) fn certify(
         return (Header::EMPTY, Run::default());
     }
     kinds.touched += 1;
-    entries.gather(lists, cell);
-    let first = entries.surface(f32::INFINITY);
+    if let Some(only) = lists.only(cell) {
+        let run = Run { start: records.len() as u32, length: 1 };
+        records.push(Record { near: only.near, item: only.item });
+        let flags = only.item.flags() & (Item::COVERS | Item::MAY_COVER | Item::IRREGULAR);
+        let is_certain = flags == Item::COVERS && only.far > horizon;
+        kinds.once += u64::from(is_certain);
+        let header = match is_certain {
+            true => Header { lit: horizon, dark: only.far },
+            false => Header { lit: only.near, dark: 0.0 },
+        };
+        return (header, run);
+    }
+    let count = entries.gather(lists, cell);
+    let first = entries.surface(count, i32::MAX);
     let start = records.len() as u32;
-    if first.is_certain && first.covers == 1 && first.far > horizon {
+    if first.is_certain && first.covers == 1 && depth(first.far) > horizon {
         kinds.once += 1;
         // Nobody asks for an order here who is not answered by the header, or hardly anybody.
-        let nearest = entries.near.iter().fold(0.0, |nearest, &near| larger(near, nearest));
-        let of_it = entries.near.iter().zip(&entries.items).filter(|(near, _)| **near >= first.far);
-        records.extend(of_it.map(|(_, &item)| Record { near: nearest, item }));
-        let header = Header { lit: larger(first.next, horizon), dark: first.far };
+        let of_it = entries.near[..count].iter().zip(&entries.items).filter(|(near, _)| **near >= first.far);
+        records.extend(of_it.map(|(_, &item)| Record { near: depth(first.near), item }));
+        let header = Header { lit: larger(depth(first.next), horizon), dark: depth(first.far) };
         return (header, Run { start, length: first.count as u32 });
     }
     let Entries { near, items, sorted, .. } = entries;
     sorted.clear();
-    sorted.extend(near.iter().zip(&*items).map(|(&near, &item)| Record { near, item }));
+    sorted.extend(near[..count].iter().zip(&*items).map(|(&near, &item)| Record { near: depth(near), item }));
     sort_by_depth(sorted);
     let mut header = Header { lit: sorted[0].near, dark: 0.0 };
     let (mut surface, mut end) = (first, first.count);
     loop {
-        if surface.is_certain && surface.covers > 0 && surface.far > horizon {
+        if surface.is_certain && surface.covers > 0 && depth(surface.far) > horizon {
             // Whatever lies behind it is behind a dark place.
-            header.dark = surface.far;
+            header.dark = depth(surface.far);
             kinds.covered += 1;
             break;
         }
-        if surface.next == 0.0 || surface.far <= horizon {
+        if surface.next == 0 || depth(surface.far) <= horizon {
             end = entries.sorted.len();
             break;
         }
-        surface = entries.surface(surface.next);
+        surface = entries.surface(count, surface.next);
         end += surface.count;
     }
     records.extend_from_slice(&entries.sorted[..end]);
@@ -214,8 +264,7 @@ mod tests {
             lists.enter(0, Item::new(number, flags), near, far);
         }
         let (mut scratch, mut records) = (Entries::default(), Vec::new());
-        let (header, run) =
-            certify(&lists, 0, horizon, &mut scratch, &mut records, &mut Kinds::default());
+        let (header, run) = certify(&lists, 0, horizon, &mut scratch, &mut records, &mut Kinds::default());
         assert_eq!(run.length as usize, records.len());
         assert!(records.is_sorted_by(|a, b| a.near >= b.near));
         (header, run.length)

@@ -67,12 +67,14 @@ impl Edges {
                     // Two that run along it in opposite directions have their third corners on different sides exactly if both
                     // have the same orientation.
                     0 if (one == other) == (a != c) => {
-                        [first, this].map(&mut mark);
+                        mark(first);
+                        mark(this);
                         this as u32 + 1
                     }
                     0 | MANY => MANY,
                     second => {
-                        [first, second as usize - 1].map(&mut mark);
+                        mark(first);
+                        mark(second as usize - 1);
                         MANY
                     }
                 };

@@ -6,7 +6,7 @@
 //! that nothing is clipped. On a side d = (x', y', 1), and these are linear functions of the cell. So is
 //! w = N . d / (N . a), N = (b - a) x (c - a).
 
-use super::bins::{Bins, Caller};
+use super::bins::Bins;
 use super::block::{CellBox, Edge, Patch};
 use super::facing::{Facing, exactly};
 use super::projection::{ROUNDOFF, smaller};
@@ -109,7 +109,7 @@ impl Survey<'_> {
     fn enter(&self, large: Large, bins: &mut Bins) {
         let tile_of = |cell: u32| cell & !(EDGE - 1);
         let ([x0, x1], [y0, y1]) = (large.cells.x, large.cells.y);
-        let number = Caller::Large(bins.large.len() as u32);
+        let number = bins.next_large();
         let keys = self.horizon.of_tiles();
         let mut is_entered = false;
         for y in (tile_of(y0)..=y1).step_by(EDGE as usize) {
@@ -123,7 +123,7 @@ impl Survey<'_> {
             }
         }
         if is_entered {
-            bins.large.push(large);
+            bins.push_large(large);
         }
     }
 
@@ -161,7 +161,6 @@ impl Survey<'_> {
         let is_normal = w_limits.iter().all(|w| w.is_normal());
         Some((cells, if is_normal { w_limits } else { [0.0, f32::INFINITY] }))
     }
-
 }
 
 impl Large {

@@ -144,7 +144,7 @@ impl Lister<'_> {
         for bins in self.bins {
             bins.each_of(tile, |caller| {
                 if let Caller::Large(place) = caller {
-                    large.push(&bins.large[place as usize]);
+                    large.push(bins.large(place));
                 }
             });
         }
@@ -164,7 +164,14 @@ impl Lister<'_> {
             let mut of_lanes = [Facing::Nothing; LANES];
             of_lanes[..count].copy_from_slice(&facing[first..first + count]);
             patches.fill(&self.projector, of_sixteen, &of_lanes);
-            let there = self.enter_tiny(&numbers[first..first + count], &irregular[first..], &of_lanes, &seen, patches, cells);
+            let there = self.enter_tiny(
+                &numbers[first..first + count],
+                &irregular[first..],
+                &of_lanes,
+                &seen,
+                patches,
+                cells,
+            );
             each_bit(there, |lane| {
                 let patch = patches.patch(lane, irregular[first + lane]);
                 self.enter_small(numbers[first + lane], &patch, &seen, cells);
@@ -235,7 +242,9 @@ impl Lister<'_> {
         let last = |cell: u32, corner: u32| cell.min(corner + EDGE - 1);
         let [cx, cy] = seen.corner;
         for y in (block_of(patch.cells.y[0], cy)..=last(patch.cells.y[1], cy)).step_by(BLOCK_EDGE as usize) {
-            for x in (block_of(patch.cells.x[0], cx)..=last(patch.cells.x[1], cx)).step_by(BLOCK_EDGE as usize) {
+            for x in
+                (block_of(patch.cells.x[0], cx)..=last(patch.cells.x[1], cx)).step_by(BLOCK_EDGE as usize)
+            {
                 let place = TileGrid::place(x, y) as usize;
                 let keys = seen.block(place);
                 if any_above(keys, key) {
@@ -249,7 +258,13 @@ impl Lister<'_> {
 }
 
 #[inline(always)]
-fn list_body(lister: &Lister<'_>, tiles: &[u32], first_cell: usize, scratch: &mut Scratch, part: &mut Part<'_>) {
+fn list_body(
+    lister: &Lister<'_>,
+    tiles: &[u32],
+    first_cell: usize,
+    scratch: &mut Scratch,
+    part: &mut Part<'_>,
+) {
     for (i, &tile) in tiles.iter().enumerate() {
         if lister.bins.iter().all(|bins| bins.is_empty(tile)) {
             continue;

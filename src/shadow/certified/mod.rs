@@ -1,11 +1,13 @@
 //! Certified cells: most queries decided by two depths of their cell, whatever lies in it.
 //!
-//! A view's queries of one light are filed in the cells of a cube around it ([`receivers`]). Triangles are then cast into those cells
-//! alone, and only where they may be in front of a receiver ([`caster`], and behind it [`small`] and [`large`]). For each cell
-//! that leaves a list, nearest first, and out of it a certificate: where the nearest surface is complete and covers
-//! the cell once, receivers on it are lit and what is behind it is dark ([`certificate`], TRUTH "Certified cells").
-//! Queries are held against these two depths ([`headers`]); what is left walks through the lists, sixteen queries at a time
-//! ([`walk`]), and where f32 leaves a test open, f64 and exact arithmetic decide it.
+//! A view's queries of one light are filed in the cells of a cube around it ([`receivers`]). Triangles are then held, sixteen at
+//! a time, against the farthest receiver of each tile of cells that they touch ([`survey`], [`large`]). Tile by tile those
+//! that remain are entered in the cells where they may be in front of a receiver ([`lists`], [`small`], [`block`]), and
+//! the edges that two of them share are found ([`edges`]). For each cell that leaves a list, nearest first, and out of it a
+//! certificate: where the nearest surface is complete and covers the cell once, receivers on it are lit and what is
+//! behind it is dark ([`certificate`], TRUTH "Certified cells"). Queries are held against these two depths ([`headers`]);
+//! what is left walks through the lists, sixteen queries at a time ([`walk`]), and where f32 leaves a test open, f64 and
+//! exact arithmetic decide it.
 //!
 //! Everything is computed with bounds that stand where it is computed: cells are supersets, depths are intervals,
 //! a receiver's cell is that of its exact point. So no answer depends on the resolution, the number of threads or the
@@ -49,7 +51,7 @@ use receivers::{CHUNK, Filed};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use survey::{Cast, Survey};
 use tiles::Tiles;
-use walk::{LANES, Walk};
+use walk::{LANES, PORTIONS, Portion, Walk};
 
 /// The largest number of cells along an edge.
 pub const MOST_CELLS: u32 = 4096;
@@ -137,8 +139,8 @@ impl Certified<'_> {
     /// With fewer cells than asked for where their lists would need more memory than there may be.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a resolution outside 1 to 4096, more than 2^28 triangles, or too little memory for what does not
-    /// depend on the resolution.
+    /// [`Error::Usage`] for a resolution outside 1 to 4096, 2^28 triangles and more, or too little memory for what does not
+    /// depend on the resolution, or for one cell along an edge.
     pub fn occluded(
         &self,
         points: &[SurfacePoint],
@@ -326,9 +328,7 @@ impl Certified<'_> {
                 open_queries(chunk * CHUNK, cells, undecided)
             })
             .collect();
-        let mut open = open.concat();
-        open.par_sort_unstable();
-        open
+        by_cell(&open, lists.headers.len())
     }
 
     /// At least every coordinate of a point on a triangle.
@@ -338,22 +338,21 @@ impl Certified<'_> {
     }
 
     fn by_lists(&self, walk: &Walk, lists: &Lists, undecided: Vec<u64>, occluded: &mut [bool]) -> Counters {
-        let cells: Vec<&[u64]> = undecided.chunk_by(|a, b| a >> 32 == b >> 32).collect();
-        let answer = |cells: &[&[u64]]| {
+        let of_cell = |queries: &&[u64]| lists.of((queries[0] >> 32) as usize);
+        let portions: Vec<Portion> = undecided
+            .chunk_by(|a, b| a >> 32 == b >> 32)
+            .flat_map(|queries| queries.chunks(LANES))
+            .map(|queries| Portion { queries, records: of_cell(&queries) })
+            .collect();
+        let answer = |portions: &[Portion]| {
             let _floats = StandardFloats::new();
             let (mut dark, mut counters) = (Vec::new(), Counters::default());
-            for queries in cells {
-                let records = lists.of((queries[0] >> 32) as usize);
-                for portion in queries.chunks(LANES) {
-                    let numbers: [u32; LANES] =
-                        std::array::from_fn(|i| portion.get(i).map_or(0, |query| *query as u32));
-                    let numbers = &numbers[..portion.len()];
-                    walk::walk(self.set, walk, records, numbers, &mut dark, &mut counters);
-                }
+            for portions in portions.chunks(PORTIONS) {
+                walk::walk(self.set, walk, portions, &mut dark, &mut counters);
             }
             (dark, counters)
         };
-        let found: Vec<_> = cells.par_chunks(256).map(answer).collect();
+        let found: Vec<_> = portions.par_chunks(16 * PORTIONS).map(answer).collect();
         let mut all = Counters::default();
         for (dark, counters) in found {
             all += counters;
@@ -363,6 +362,25 @@ impl Certified<'_> {
         }
         all
     }
+}
+
+/// Sorts queries by their cells, which are in the upper half.
+fn by_cell(portions: &[Vec<u64>], cells: usize) -> Vec<u64> {
+    let cell_of = |query: u64| (query >> 32) as usize;
+    let mut next = vec![0u32; cells];
+    let all = || portions.iter().flatten().copied();
+    all().for_each(|query| next[cell_of(query)] += 1);
+    let mut start = 0;
+    for next in &mut next {
+        start += std::mem::replace(next, start);
+    }
+    let mut sorted = vec![0; start as usize];
+    for query in all() {
+        let next = &mut next[cell_of(query)];
+        sorted[*next as usize] = query;
+        *next += 1;
+    }
+    sorted
 }
 
 /// Undecided queries from a first one on, with their cells in the upper half.

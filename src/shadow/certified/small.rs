@@ -3,10 +3,9 @@
 use super::block::{CellBox, Cover, Edge, Patch, Sixteen, bits, depths};
 use super::corners::{Corners, LANES};
 use super::facing::Facing;
+use super::projection::{Projector, ROUNDOFF, cell_and_border, larger};
 use super::receivers::Horizon;
 use super::tiles::{AREA, EDGE, TileGrid};
-use super::projection::{Projector, ROUNDOFF, cell_and_border, larger};
-
 
 /// An edge of each triangle; see [`Edge`].
 #[derive(Debug, Default)]
@@ -82,8 +81,7 @@ impl Patches {
             let limits = corners.w_limits(i);
             let weights = 1.0 + reach * size * per_certain_area;
             let range = limits[1] - limits[0];
-            let wrong =
-                weights * (4.0 * range * (slack * per_certain_area) + 24.0 * ROUNDOFF * limits[1]);
+            let wrong = weights * (4.0 * range * (slack * per_certain_area) + 24.0 * ROUNDOFF * limits[1]);
             self.w[i] = (w[0] + dw[0] * (centre[0] - u[0])) + dw[1] * (centre[1] - v[0]);
             self.spread[i] = 0.5 * (dw[0].abs() + dw[1].abs()) + wrong;
             for k in 0..2 {
@@ -133,7 +131,12 @@ impl Patches {
                 // Corners 1 and 2 may have changed places.
                 let of_corners = if self.swapped[i] == 1 { 2 - j as u32 } else { j as u32 };
                 let meets = if irregular[i] >> of_corners & 1 == 1 { edge.within[i] } else { -1.0 };
-                cover.edge((edge.at[i] + edge.a[i] * x) + edge.b[i] * y, edge.within[i], edge.slack[i], meets);
+                cover.edge(
+                    (edge.at[i] + edge.a[i] * x) + edge.b[i] * y,
+                    edge.within[i],
+                    edge.slack[i],
+                    meets,
+                );
             }
             let [near, far] = depths(w, self.spread[i], limits);
             (sixteen.near[i], sixteen.far[i], sixteen.flags[i]) = (near, far, cover.flags());

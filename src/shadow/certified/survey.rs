@@ -2,9 +2,9 @@
 
 use super::bins::{Bins, Caller};
 use super::block::{bits, each_bit};
+use super::corners::{Corners, LANES};
 use super::dispatch::for_instruction_sets;
 use super::is_plain;
-use super::corners::{Corners, LANES};
 use super::projection::{Projected, Projector, cell_and_border};
 use super::receivers::Horizon;
 use super::tiles::{EDGE, TileGrid};
@@ -82,15 +82,18 @@ impl Survey<'_> {
         spans
     }
 
-    /// Tiles of a span with a receiver that the triangle may be in front of.
+    /// Calls for the tiles of a span with a receiver that the triangle may be in front of, until the call says that it is enough.
     #[inline(always)]
-    fn tiles(&self, spans: &Spans, lane: usize, side: u32) -> impl Iterator<Item = u32> {
-        let (columns, rows) = (spans.columns.map(|end| end[lane]), spans.rows.map(|end| end[lane]));
+    fn each_tile(&self, spans: &Spans, lane: usize, side: u32, mut call: impl FnMut(u32) -> bool) {
         let (per_edge, key) = (self.grid.per_edge(), spans.key[lane]);
-        let row = move |y: u32| (side * per_edge + y) * per_edge;
-        (rows[0]..=rows[1])
-            .flat_map(move |y| (columns[0]..=columns[1]).map(move |x| row(y) + x))
-            .filter(move |&tile| self.horizon.of_tiles()[tile as usize] > key)
+        for row in spans.rows[0][lane]..=spans.rows[1][lane] {
+            let first = (side * per_edge + row) * per_edge;
+            for tile in first + spans.columns[0][lane]..=first + spans.columns[1][lane] {
+                if self.horizon.of_tiles()[tile as usize] > key && call(tile) {
+                    return;
+                }
+            }
+        }
     }
 
     #[inline(always)]
@@ -113,13 +116,21 @@ impl Survey<'_> {
             }
             let side = corners.side[lane];
             if spans.small[lane] == 1 {
-                for tile in self.tiles(&spans, lane, side) {
+                self.each_tile(&spans, lane, side, |tile| {
                     bins.push(tile, Caller::Small(triangle));
-                }
+                    false
+                });
             } else if spans.on_one_side[lane] == 0 {
                 self.survey_large(triangle, None, bins);
-            } else if self.tiles(&spans, lane, side).next().is_some() {
-                self.survey_large(triangle, Some(side), bins);
+            } else {
+                let mut is_asked = false;
+                self.each_tile(&spans, lane, side, |_| {
+                    is_asked = true;
+                    true
+                });
+                if is_asked {
+                    self.survey_large(triangle, Some(side), bins);
+                }
             }
         });
     }

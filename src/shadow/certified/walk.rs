@@ -1,9 +1,9 @@
 //! Queries that headers leave open against the list of their cell, sixteen at a time.
 
 use super::block::{bits, each_bit};
+use super::cell_lists::Item;
 use super::certificate::Record;
 use super::dispatch::for_instruction_sets;
-use super::cell_lists::Item;
 use super::projection::{Projected, Projector, ROUNDOFF, larger, smaller};
 use super::tiles::BLOCK;
 use crate::geometry::LightSpace;
@@ -15,6 +15,9 @@ use crate::visibility::{RoundedPoints, SurfacePoint};
 /// Queries that walk together.
 pub(super) const LANES: usize = BLOCK;
 
+/// Records whose triangles are looked up together.
+const GROUP: usize = 8;
+
 /// What all queries of a light share.
 pub(super) struct Walk<'a> {
     pub scene: &'a Scene,
@@ -25,6 +28,30 @@ pub(super) struct Walk<'a> {
     /// The scene's vertices.
     pub projected: &'a [Projected],
 }
+
+impl Walk<'_> {
+    /// Corners of the first triangles of a list.
+    #[inline(always)]
+    fn corners(&self, records: &[Record]) -> [[Projected; 3]; GROUP] {
+        std::array::from_fn(|i| match records.get(i) {
+            Some(record) => {
+                let triangle = &self.scene.triangles[record.item.triangle() as usize];
+                triangle.vertices.map(|vertex| self.projected[vertex as usize])
+            }
+            None => Default::default(),
+        })
+    }
+}
+
+/// Queries of one cell, at most [`LANES`] of them, and its list. The number of a query is in the lower half.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Portion<'a> {
+    pub queries: &'a [u64],
+    pub records: &'a [Record],
+}
+
+/// Portions that are walked together.
+pub(super) const PORTIONS: usize = 16;
 
 /// Sixteen receivers on one side; those that are not there repeat the last.
 #[derive(Debug, Default)]
@@ -43,11 +70,11 @@ struct Lanes {
 
 impl Lanes {
     #[inline(always)]
-    fn new(walk: &Walk<'_>, queries: &[u32]) -> Lanes {
+    fn new(walk: &Walk<'_>, queries: &[u64]) -> Lanes {
         let mut lanes = Lanes::default();
         let mut sides = [Projected::NOWHERE; LANES];
         for i in 0..LANES {
-            let query = queries[i.min(queries.len() - 1)] as usize;
+            let query = queries[i.min(queries.len() - 1)] as u32 as usize;
             let at = walk.rounded.position(query);
             let p = walk.projector.project(at);
             let size = at[0].abs().max(at[1].abs()).max(at[2].abs());
@@ -129,52 +156,70 @@ impl Lanes {
 }
 
 #[inline(always)]
-fn walk_body(
+fn walk_body(walk: &Walk<'_>, portions: &[Portion<'_>], occluded: &mut Vec<u32>, counters: &mut Counters) {
+    // All queries first and then all first triangles, so that what has to be fetched is not waited for one by one.
+    let mut lanes: [Lanes; PORTIONS] = Default::default();
+    let mut corners = [[Default::default(); GROUP]; PORTIONS];
+    for (lanes, portion) in lanes.iter_mut().zip(portions) {
+        *lanes = Lanes::new(walk, portion.queries);
+    }
+    for (corners, portion) in corners.iter_mut().zip(portions) {
+        *corners = walk.corners(portion.records);
+    }
+    for ((portion, lanes), &corners) in portions.iter().zip(&lanes).zip(&corners) {
+        walk_one(walk, portion, lanes, corners, occluded, counters);
+    }
+}
+
+#[inline(always)]
+fn walk_one(
     walk: &Walk<'_>,
-    records: &[Record],
-    queries: &[u32],
+    portion: &Portion<'_>,
+    lanes: &Lanes,
+    first_corners: [[Projected; 3]; GROUP],
     occluded: &mut Vec<u32>,
     counters: &mut Counters,
 ) {
-    let lanes = Lanes::new(walk, queries);
+    let Portion { queries, records } = *portion;
     let mut live = u32::MAX >> (32 - queries.len());
     let mut lowest = lanes.lowest(live);
-    for record in records {
-        // Nothing further on can be before any of them.
-        if record.near < lowest || live == 0 {
-            return;
-        }
-        let triangle = record.item.triangle();
-        // Nothing blocks what lies in its plane.
-        let asked = live & !lanes.on(triangle);
-        counters.tests += u64::from(asked.count_ones());
-        let corners = walk.scene.triangles[triangle as usize].vertices.map(|v| walk.projected[v as usize]);
-        let is_flat = !record.item.has(Item::IN_SPACE) && lanes.side == Some(corners[0].side);
-        let (blocked, open) = match is_flat {
-            true => lanes.against(corners, record.near),
-            false => (0, u32::MAX),
-        };
-        let (mut blocked, open) = (blocked & asked, open & asked);
-        each_bit(open, |lane| {
-            if record.near >= lanes.w_low[lane] {
-                counters.undecided += 1;
-                blocked |= u32::from(blocks(walk, queries[lane], triangle, counters)) << lane;
+    for (number, group) in records.chunks(GROUP).enumerate() {
+        let corners = if number == 0 { first_corners } else { walk.corners(group) };
+        for (record, corners) in group.iter().zip(corners) {
+            // Nothing further on can be before any of them.
+            if record.near < lowest || live == 0 {
+                return;
             }
-        });
-        if blocked != 0 {
-            each_bit(blocked, |lane| occluded.push(queries[lane]));
-            live &= !blocked;
-            lowest = lanes.lowest(live);
+            let triangle = record.item.triangle();
+            // Nothing blocks what lies in its plane.
+            let asked = live & !lanes.on(triangle);
+            counters.tests += u64::from(asked.count_ones());
+            let is_flat = !record.item.has(Item::IN_SPACE) && lanes.side == Some(corners[0].side);
+            let (blocked, open) = match is_flat {
+                true => lanes.against(corners, record.near),
+                false => (0, u32::MAX),
+            };
+            let (mut blocked, open) = (blocked & asked, open & asked);
+            each_bit(open, |lane| {
+                if record.near >= lanes.w_low[lane] {
+                    counters.undecided += 1;
+                    blocked |= u32::from(blocks(walk, queries[lane] as u32, triangle, counters)) << lane;
+                }
+            });
+            if blocked != 0 {
+                each_bit(blocked, |lane| occluded.push(queries[lane] as u32));
+                live &= !blocked;
+                lowest = lanes.lowest(live);
+            }
         }
     }
 }
 
 for_instruction_sets! {
-    /// Adds those of at most [`LANES`] queries of one cell to `occluded` that something in its list blocks.
+    /// Adds those queries of at most [`PORTIONS`] portions to `occluded` that something in their lists blocks.
     pub(super) fn walk = walk_body, (
         walk: &Walk<'_>,
-        records: &[Record],
-        queries: &[u32],
+        portions: &[Portion<'_>],
         occluded: &mut Vec<u32>,
         counters: &mut Counters,
     )
