@@ -15,7 +15,7 @@ use super::{
 use crate::error::Result;
 use crate::geometry::LightPosition;
 use crate::geometry::batch::InstructionSet;
-use crate::visibility::{RoundedPoints, SurfacePoint};
+use crate::visibility::SurfacePoint;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// `irregular-z-buffer` in the registry.
@@ -66,7 +66,7 @@ impl<'a> IrregularZBuffer<'a> {
             Resolution::Auto => automatic_resolution(points.len()),
             Resolution::Cells(cells) => cells,
         };
-        let work = whole.occluded(points, &RoundedPoints::new(points), resolution, answers)?;
+        let work = whole.occluded(points, resolution, answers)?;
         self.bytes.fetch_max(work.bytes, Relaxed);
         Ok(work.counters)
     }

@@ -5,12 +5,10 @@ mod curved_cast;
 pub mod hierarchy;
 mod hit;
 mod method;
-mod rounded;
 mod surface_point;
 pub mod t_buffer;
 
 pub use hit::FirstHits;
 pub(crate) use hit::{Hit, is_there, keep_nearer};
 pub use method::FirstHitMethod;
-pub use rounded::RoundedPoints;
 pub use surface_point::{PointSource, SurfacePoint, VisibleSurfaces};

@@ -38,7 +38,7 @@ use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
 use crate::memory::MemoryLimit;
 use crate::scene::{PrimitiveIndex, Scene};
-use crate::visibility::{RoundedPoints, SurfacePoint};
+use crate::visibility::SurfacePoint;
 use bins::{Bins, Budget};
 use cell_lists::Item;
 use certificate::{Header, Kinds, Record, Run};
@@ -141,13 +141,7 @@ impl Certified<'_> {
     /// # Errors
     /// [`Error::Usage`] for a resolution outside 1 to 4096, 2^28 triangles and more, or too little memory for what does not
     /// depend on the resolution, or for one cell along an edge.
-    pub fn occluded(
-        &self,
-        points: &[SurfacePoint],
-        rounded: &RoundedPoints,
-        resolution: u32,
-        occluded: &mut [bool],
-    ) -> Result<Work> {
+    pub fn occluded(&self, points: &[SurfacePoint], resolution: u32, occluded: &mut [bool]) -> Result<Work> {
         let _floats = StandardFloats::new();
         if !(1..=MOST_CELLS).contains(&resolution) {
             let expected = format!("expected 1 to {MOST_CELLS}");
@@ -162,7 +156,7 @@ impl Certified<'_> {
         let memory = self.memory.beside("the projection of all vertices and points", fixed as u64)?;
         let mut resolution = resolution;
         loop {
-            if let Some(work) = self.at_resolution(points, rounded, resolution, memory, occluded) {
+            if let Some(work) = self.at_resolution(points, resolution, memory, occluded) {
                 return Ok(Work { bytes: work.bytes + fixed as u64, ..work });
             }
             if resolution == 1 {
@@ -177,14 +171,13 @@ impl Certified<'_> {
     fn at_resolution(
         &self,
         points: &[SurfacePoint],
-        rounded: &RoundedPoints,
         resolution: u32,
         memory: MemoryLimit,
         occluded: &mut [bool],
     ) -> Option<Work> {
         let scene = self.scene;
         let projector = Projector::new(self.light, resolution);
-        let mut filed = Filed::new(self.set, &projector, scene, points, rounded);
+        let mut filed = Filed::new(self.set, &projector, scene, points);
         let projected = self.projected(&projector);
         let grid = filed.tiles.grid;
         let cell_bytes = filed.tiles.cells() * (size_of::<Header>() + size_of::<Run>() + size_of::<u32>())
@@ -209,14 +202,13 @@ impl Certified<'_> {
             ..Work::default()
         };
         drop(bins);
-        self.leave_open_what_is_not_cast(&mut filed, rounded);
+        self.leave_open_what_is_not_cast(&mut filed, points);
         let undecided = self.by_headers(&projector, &filed, &lists, occluded);
         work.by_header = (points.len() - undecided.len()) as u64;
         work.counters.cells = points.len() as u64;
         work.counters.lists = undecided.len() as u64;
         let space = LightSpace::from(self.light);
-        let walk =
-            Walk { scene, projector: &projector, space: &space, points, rounded, projected: &projected };
+        let walk = Walk { scene, projector: &projector, space: &space, points, projected: &projected };
         work.counters += self.by_lists(&walk, &lists, undecided, occluded);
         Some(work)
     }
@@ -294,13 +286,12 @@ impl Certified<'_> {
     }
 
     /// Certificates light what lies on a triangle that is cast; all else asks the lists.
-    fn leave_open_what_is_not_cast(&self, filed: &mut Filed, rounded: &RoundedPoints) {
-        let is_bare = |&primitive: &PrimitiveIndex| primitive == RoundedPoints::NO_PRIMITIVE;
-        if self.cast() == Cast::All && !rounded.primitives.par_iter().any(is_bare) {
+    fn leave_open_what_is_not_cast(&self, filed: &mut Filed, points: &[SurfacePoint]) {
+        if self.cast() == Cast::All && !filed.has_bare {
             return;
         }
-        (&mut filed.depths, &rounded.primitives).into_par_iter().for_each(|(depth, &primitive)| {
-            if primitive == RoundedPoints::NO_PRIMITIVE || !is_plain(self.scene, primitive) {
+        (&mut filed.depths, points).into_par_iter().for_each(|(depth, point)| {
+            if point.primitive().is_none_or(|primitive| !is_plain(self.scene, primitive)) {
                 *depth = f32::NAN;
             }
         });

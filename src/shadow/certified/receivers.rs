@@ -9,9 +9,9 @@ use crate::geometry::batch::InstructionSet;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
 use crate::shadow::light_buffer::cells::Cells;
-use crate::visibility::{RoundedPoints, SurfacePoint};
+use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
 
 /// Receivers of a task.
 pub(super) const CHUNK: usize = 4096;
@@ -78,33 +78,32 @@ pub(super) struct Filed {
     /// w of each, wrong by [`Projector::error_of`]; NaN where f32 cannot hold it.
     pub depths: Vec<f32>,
     pub horizon: Horizon,
+    /// Whether one of them lies on no primitive.
+    pub has_bare: bool,
 }
 
 impl Filed {
     /// Files all receivers.
-    pub fn new(
-        set: InstructionSet,
-        projector: &Projector,
-        scene: &Scene,
-        points: &[SurfacePoint],
-        rounded: &RoundedPoints,
-    ) -> Filed {
+    pub fn new(set: InstructionSet, projector: &Projector, scene: &Scene, points: &[SurfacePoint]) -> Filed {
         let grid = TileGrid::new(projector.resolution);
         let tiles = Tiles::new(grid);
         // No more tiles than receivers. Pages that nobody writes to cost nothing.
         let most = grid.count().min(points.len()) * AREA as usize;
         let horizon: Vec<AtomicU32> = bytemuck::zeroed_vec(most);
+        let has_bare = AtomicBool::new(false);
         let mut cells = vec![0; points.len()];
         let mut depths = vec![0.0; points.len()];
         (points.par_chunks(CHUNK), cells.par_chunks_mut(CHUNK), depths.par_chunks_mut(CHUNK))
             .into_par_iter()
-            .enumerate()
-            .for_each(|(chunk, (points, cells, depths))| {
+            .for_each(|(points, cells, depths)| {
                 let _floats = StandardFloats::new();
                 let mut places = [0; CHUNK];
                 let places = &mut places[..points.len()];
-                let rounded = rounded.slice(chunk * CHUNK, points.len());
-                locate(set, projector, &grid, rounded, cells, places, depths);
+                let rounded = Rounded::new(points);
+                if points.iter().any(|point| point.primitive().is_none()) {
+                    has_bare.store(true, Relaxed);
+                }
+                locate(set, projector, &grid, rounded.coordinates(points.len()), cells, places, depths);
                 for (i, point) in points.iter().enumerate() {
                     if cells[i] == OPEN {
                         (cells[i], places[i], depths[i]) = locate_exactly(projector, &grid, scene, point);
@@ -113,7 +112,26 @@ impl Filed {
                 file(&tiles, &horizon, cells, places, depths);
             });
         let horizon = Horizon::new(&tiles, &horizon);
-        Filed { tiles, cells, depths, horizon }
+        Filed { tiles, cells, depths, horizon, has_bare: has_bare.into_inner() }
+    }
+}
+
+/// Positions rounded to f32, axis by axis: each wrong by half an ulp and 2^-29 of that.
+struct Rounded([[f32; CHUNK]; 3]);
+
+impl Rounded {
+    #[inline(always)]
+    fn new(points: &[SurfacePoint]) -> Rounded {
+        let mut axes = [[0.0; CHUNK]; 3];
+        for (i, point) in points.iter().enumerate() {
+            let position = point.position.as_vec3();
+            (axes[0][i], axes[1][i], axes[2][i]) = (position.x, position.y, position.z);
+        }
+        Rounded(axes)
+    }
+
+    fn coordinates(&self, count: usize) -> [&[f32]; 3] {
+        self.0.each_ref().map(|axis| &axis[..count])
     }
 }
 

@@ -8,9 +8,9 @@ use super::projection::{Projected, Projector, ROUNDOFF, larger, smaller};
 use super::tiles::BLOCK;
 use crate::geometry::LightSpace;
 use crate::geometry::occlusion::PreciseQuery;
-use crate::scene::Scene;
+use crate::scene::{PrimitiveIndex, Scene};
 use crate::shadow::{Counters, precise};
-use crate::visibility::{RoundedPoints, SurfacePoint};
+use crate::visibility::SurfacePoint;
 
 /// Queries that walk together.
 pub(super) const LANES: usize = BLOCK;
@@ -24,7 +24,6 @@ pub(super) struct Walk<'a> {
     pub projector: &'a Projector,
     pub space: &'a LightSpace,
     pub points: &'a [SurfacePoint],
-    pub rounded: &'a RoundedPoints,
     /// The scene's vertices.
     pub projected: &'a [Projected],
 }
@@ -75,7 +74,8 @@ impl Lanes {
         let mut sides = [Projected::NOWHERE; LANES];
         for i in 0..LANES {
             let query = queries[i.min(queries.len() - 1)] as u32 as usize;
-            let at = walk.rounded.position(query);
+            let point = &walk.points[query];
+            let at = point.position.as_vec3().to_array();
             let p = walk.projector.project(at);
             let size = at[0].abs().max(at[1].abs()).max(at[2].abs());
             let error = walk.projector.error_of(size, p.w);
@@ -88,7 +88,7 @@ impl Lanes {
                 true => (p.w * (1.0 - error), p.w * (1.0 + error)),
                 false => (0.0, f32::INFINITY),
             };
-            lanes.base[i] = walk.rounded.primitives[query];
+            lanes.base[i] = point.primitive().unwrap_or(PrimitiveIndex::MAX);
         }
         let is_one = sides.iter().all(|&side| side == sides[0]) && sides[0] != Projected::NOWHERE;
         lanes.side = is_one.then_some(sides[0]);
