@@ -388,3 +388,6 @@ fn clip(polygon: &[DVec3], distance: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     }
     inside
 }
+
+#[cfg(test)]
+mod tests;
