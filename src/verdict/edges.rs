@@ -257,8 +257,7 @@ mod tests {
 
     #[test]
     fn a_silhouette_is_near_up_to_the_angle_on_whatever_side_it_is() {
-        let angle = 0.01;
-        for turn in 0..50 {
+        for (turn, angle) in (0..50).flat_map(|turn| [(turn, 0.01), (turn, 0.5)]) {
             let turn = TAU * f64::from(turn) / 50.0;
             let (across, along) = (
                 DVec3::new(libm::cos(turn), libm::sin(turn), 0.0),
@@ -277,7 +276,7 @@ mod tests {
                 edges.are_near(&SurfacePoint::on_ray(&scene, LIGHT, Vec3::Z, 0), angle)
             };
             // The ring has 32 rays: one of them is within a 64th of a turn of every side, and cos(tau / 64) > 0.995.
-            assert!(near(0.99) && !near(1.01), "{turn}");
+            assert!(near(0.99) && !near(1.01), "{turn} {angle}");
         }
     }
 
