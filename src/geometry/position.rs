@@ -192,12 +192,21 @@ mod tests {
     fn coordinates_are_as_uncertain_as_is_derived() {
         // Along z, with n = (0, 0, 4) and t = 2. In units of the bound: the height 8 within 8, the slope 4 within 4, so
         // that t is within 1.5 (8 + 2 * 4) / 4 + 2 = 8, and z = 16 + 2 within 8 + 16 + 2.
-        let corners = [Vec3::new(-1.0, -1.0, 18.0), Vec3::new(1.0, -1.0, 18.0), Vec3::new(0.0, 1.0, 18.0)];
-        let [x, _, z] = in_double_double(Vec3::new(5.0, 0.0, 16.0), Vec3::Z, corners).expect("it is hit");
-        assert_eq!((x.rounded(), z.rounded()), (Some(5.0), Some(18.0)));
-        let bound = 16.0 * DoubleDouble::ROUNDOFF;
-        assert!((x.parts().1 / (5.0 * bound) - 1.0).abs() < 1e-9, "{}", x.parts().1 / bound);
-        assert!((z.parts().1 / (26.0 * bound) - 1.0).abs() < 1e-9, "{}", z.parts().1 / bound);
+        let corners = [[-1.0, -1.0, 18.0], [1.0, -1.0, 18.0], [0.0, 1.0, 18.0]];
+        for axis in 0..3 {
+            let turned = |mut p: [f32; 3]| {
+                p.rotate_left(axis);
+                Vec3::from(p)
+            };
+            let origin = turned([5.0, 0.0, 16.0]);
+            let found =
+                in_double_double(origin, turned([0.0, 0.0, 1.0]), corners.map(turned)).expect("it is hit");
+            let (x, z) = (found[(3 - axis) % 3], found[2 - axis]);
+            assert_eq!((x.rounded(), z.rounded()), (Some(5.0), Some(18.0)));
+            let bound = 16.0 * DoubleDouble::ROUNDOFF;
+            assert!((x.parts().1 / (5.0 * bound) - 1.0).abs() < 1e-9, "{}", x.parts().1 / bound);
+            assert!((z.parts().1 / (26.0 * bound) - 1.0).abs() < 1e-9, "{}", z.parts().1 / bound);
+        }
     }
 
     #[test]

@@ -260,4 +260,27 @@ mod tests {
         let hit = hit_beyond(Vec3::ZERO, Vec3::Z, corners, &RayStart::origin()).expect("a corner");
         assert_eq!((hit.value, hit.error), (1.0, f64::INFINITY));
     }
+
+    #[test]
+    fn texels_do_not_depend_on_the_side_that_a_triangle_is_seen_from() {
+        use crate::geometry::ExactPosition;
+        use crate::geometry::LightSpace;
+        use crate::geometry::occlusion::PreciseQuery;
+        // Four columns along x and two rows along y.
+        let corners = [Vec3::new(0.0, 0.0, 2.0), Vec3::new(4.0, 0.0, 2.0), Vec3::new(0.0, 4.0, 2.0)];
+        let axis = |coordinates: [f32; 3], size: u32| TexelAxis { coordinates, size };
+        let axes = [axis([0.0, 1.0, 0.0], 4), axis([0.0, 0.0, 1.0], 2)];
+        let (x, y) = (2.5, 0.5);
+        for z in [0.0, 4.0] {
+            let origin = Vec3::new(x, y, z);
+            let direction = Vec3::Z * (2.0 - z);
+            let expected = [Place::Near(2), Place::Near(0)];
+            let triangle = RayTriangle::new(origin, corners).expect("seen");
+            assert_eq!(triangle.texels(corners, direction, &axes), expected);
+            let point = Vec3::new(x, y, 4.0 - z);
+            let query =
+                PreciseQuery::new(&LightSpace::from(origin), point.as_dvec3(), || ExactPosition::Bare(point));
+            assert_eq!(query.texels(corners, &axes), expected);
+        }
+    }
 }

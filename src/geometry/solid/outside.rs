@@ -112,7 +112,8 @@ mod tests {
         let bounds = (Vec3::ZERO, Vec3::new(2.0, 2.0, 1.0));
         let outside = |x: f32, y: f32| is_outside(Vec3::new(x, y, 0.4), &triangles, bounds, Sign::Negative);
         assert!(outside(1.5, 1.7) && outside(1.6, 1.5));
-        assert!(outside(3.0, 0.5));
+        // In the plane of the upper end, beside that.
+        assert!(outside(3.0, 0.5) && outside(1.5, 2.0));
         assert!(!outside(0.5, 0.6) && !outside(1.7, 0.45));
         // In a plane beyond its side, and on a side.
         assert!(outside(1.0, 3.0) && outside(1.95, 1.9) && !outside(1.0, 1.5) && !outside(1.5, 1.0));
