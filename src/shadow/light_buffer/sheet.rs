@@ -244,4 +244,19 @@ mod tests {
         assert_eq!(cell(Vec3::new(8.0, -8.0, 1.0)), Some([3, 0]));
         assert_eq!([Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|side| cell(side * 8.1)), [None; 4]);
     }
+
+    #[test]
+    fn a_border_is_as_wide_as_its_uncertainty_in_units_of_the_sheet() {
+        let direction = Vec3::new(1.0, 0.0, 2.0);
+        let sheet = Sheet::new(Vec3::ZERO, direction, [Vec3::splat(8.0), Vec3::splat(-8.0)].into_iter());
+        let space = LightSpace::new(LightPosition::Towards(direction), (Vec3::splat(-8.0), Vec3::splat(8.0)));
+        // At (4, 1, 8) x' is 0, wrong by 8 + 8 + 32 in units of 2^-52. E is 4: in cells of half of it that is 12, and 8
+        // for rounding, so that the border is as wide as 160 of them.
+        let exactly = |parts: f64| {
+            let p = DVec3::new(4.0, 1.0, 8.0 - 2.0 * parts * f64::EPSILON);
+            let query = PreciseQuery::new(&space, p, || ExactPosition::Bare(p.as_vec3()));
+            sheet.locate(p, 4, &query).expect("in the middle").1
+        };
+        assert_eq!([-170.0, -150.0, 150.0, 170.0].map(exactly), [false, true, true, false]);
+    }
 }

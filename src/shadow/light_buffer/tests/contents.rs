@@ -182,8 +182,13 @@ fn a_test_that_floats_leave_open_is_counted() {
 
 #[test]
 fn a_triangle_that_is_seen_almost_edge_on_is_listed() {
-    // Its plane passes the light at 1e-30, which floats do not tell from nothing.
-    let corners = vec![Vec3::new(1.0, 0.0, 4.0), Vec3::new(-1.0, 0.0, 5.0), Vec3::new(0.0, 1e-30, 6.0)];
+    // The volume before the light is 1, of products of 2^62: floats do not tell on which side of the plane that is.
+    let corners = [
+        [-3_162_467.0, -888_664.0, 2_091_827.0],
+        [-572_508.0, -160_877.0, 378_687.0],
+        [-1_055_636.0, -296_638.0, 698_253.0],
+    ];
+    let corners = corners.map(Vec3::from).to_vec();
     let scene = of_objects(vec![triangle(corners)]);
     let index = SceneIndex::new(&scene);
     let buffer = LightBuffer::new(&anywhere(&scene, &index, 4)).unwrap();
@@ -315,4 +320,47 @@ fn statistics_say_what_was_built() {
     // Of 6 sides with 4 squares each.
     assert_eq!(of("list items per square"), format!("{:.3}", counts.records as f64 / 24.0));
     assert_eq!(of("non-empty squares"), format!("{:.1} %", 100.0 * counts.non_empty as f64 / 24.0));
+}
+
+#[test]
+fn the_corners_of_what_is_cast_are_its_own_or_those_of_a_box_around_it() {
+    let sphere = Shape::sphere(Vec3::new(3.0, -4.0, 5.0), 2.0);
+    let scene = of_objects(vec![triangle(across(3.0, 1.0)), with_curved(sphere)]);
+    let index = SceneIndex::new(&scene);
+    let casters = Casters::some(&scene, &index, Vec3::ZERO.into(), &index.casting);
+    let found: Vec<Vec3> = corners(&scene, &casters).collect();
+    assert_eq!(found[..3], across(3.0, 1.0));
+    let (low, high) = sphere.bounds().unwrap();
+    let boxed: Vec<Vec3> = (0..8)
+        .map(|i| {
+            let end = |axis: usize| if i / [1, 2, 4][axis] % 2 == 0 { low[axis] } else { high[axis] };
+            Vec3::new(end(0), end(1), end(2))
+        })
+        .collect();
+    assert_eq!(found[3..], boxed);
+}
+
+#[test]
+fn a_sheet_lists_a_triangle_in_the_cells_that_it_meets_at_its_depth_there() {
+    // Half of a square of 8 by 8 cells, in the plane z = x, under a light straight above and one from aside.
+    let corners = [Vec3::splat(-8.0), Vec3::new(8.0, -8.0, 8.0), Vec3::new(-8.0, 8.0, -8.0)];
+    let scene = of_objects(vec![triangle(corners.to_vec())]);
+    let index = SceneIndex::new(&scene);
+    for direction in [Vec3::new(0.0, 0.0, 2.0), Vec3::new(-1.0, 0.0, 2.0)] {
+        let buffer = build_for(LightPosition::Towards(direction), &scene, &index, 8);
+        let lists = buffer.sides[0].as_ref().unwrap();
+        // Seen along the rays it is as wide as from -8 to 8 or from -12 to 12: columns are steps of 2 in depth.
+        let origin = buffer.casters.space.origin().z;
+        for row in 0..8 {
+            for column in 0..8 {
+                let records = lists.cell(column, row).map_or(&[][..], |cell| lists.list(cell).1);
+                // Those beyond its longest side have a corner on it.
+                assert_eq!(records.len(), usize::from(column + row <= 8), "{column} {row}");
+                if column + row < 7 {
+                    let nearest = 8.0 - 2.0 * (column + 1) as f32 + origin;
+                    assert!((records[0].near - nearest).abs() < 1e-3, "{column} {row}: {}", records[0].near);
+                }
+            }
+        }
+    }
 }
