@@ -62,7 +62,8 @@ impl BoundedDouble {
         let first = DoubleDouble { high: root, low: 0.0 };
         let rest = self.value.add(first.multiply(first).negate());
         let value = first.add(DoubleDouble { high: rest.high / (2.0 * root), low: 0.0 });
-        let error = self.error / root + 2.0 * LOSS * root + f64::MIN_POSITIVE;
+        // A root is 2^-537 at least: nothing underflows that counts beside the second term.
+        let error = self.error / root + 2.0 * LOSS * root;
         BoundedDouble { value, error: error * INFLATION }
     }
 
@@ -122,7 +123,11 @@ mod tests {
         let pair = |high: f64, error: f64| BoundedDouble::from_parts(DoubleDouble { high, low: 0.0 }, error);
         for root in [pair(f64::NAN, 0.0).square_root(), pair(4.0, f64::INFINITY).square_root()] {
             assert_eq!((root.sign(), root.rounded()), (None, None));
+            assert_eq!(root.parts().1, f64::INFINITY);
         }
+        // Of what is zero or within a bound of it, the root is at most the bound's.
+        let bound = pair(0.0, 4.0).square_root().parts().1;
+        assert!(bound > 2.0 && bound < 2.0 * (1.0 + 40.0 * ROUNDOFF));
         let four = BoundedDouble::exactly(4.0);
         assert_eq!(four.square_root().sign(), Some(Sign::Positive));
     }
@@ -145,5 +150,14 @@ mod tests {
         }
         assert_eq!([rounded(1e-200, 0.0, 0.0), rounded(-1e-300, 0.0, 0.0)], [None; 2]);
         assert_eq!(rounded(2e-200, 0.0, 0.0), Some(2e-200));
+    }
+
+    #[test]
+    fn the_low_part_counts_for_the_sign() {
+        let sign =
+            |low: f64, error: f64| BoundedDouble::from_parts(DoubleDouble { high: 1.0, low }, error).sign();
+        assert_eq!(sign(0.0, 1.0 - ROUNDOFF), Some(Sign::Positive));
+        assert_eq!(sign(-ROUNDOFF, 1.0 - ROUNDOFF), None);
+        assert_eq!(sign(-ROUNDOFF, 1.0 - 3.0 * ROUNDOFF), Some(Sign::Positive));
     }
 }

@@ -144,4 +144,11 @@ mod tests {
         let triangles: Vec<_> = quads.into_iter().flat_map(cut).collect();
         assert_eq!(verify(&triangles).unwrap().surface, Surface::Closed);
     }
+
+    #[test]
+    fn objects_of_more_triangles_than_that_are_not_examined() {
+        let triangles = vec![[Vec3::ZERO, Vec3::X, Vec3::Y]; MOST_TRIANGLES + 2];
+        let is_examined = |count: usize| verify(&triangles[..count]).is_some();
+        assert_eq!([0, 1, 2].map(|more| is_examined(MOST_TRIANGLES + more)), [true, false, false]);
+    }
 }

@@ -77,3 +77,21 @@ impl Dyadic {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smallest_floats_are_exact() {
+        let power = |exponent: i32| Dyadic::from_f64(2.0_f64.powi(exponent));
+        let smallest = Dyadic::from_f64(f64::from_bits(1));
+        assert_eq!(smallest.minus(&power(-537).times(&power(-537))).sign(), Sign::Zero);
+        assert_eq!(
+            Dyadic::from_f64(f64::from_bits(6))
+                .minus(&smallest.times(&power(1)).times(&Dyadic::from_f64(3.0)))
+                .sign(),
+            Sign::Zero
+        );
+    }
+}

@@ -103,3 +103,17 @@ pub fn dot(a: &ExactVector, b: &ExactVector) -> ExactNumber {
 pub fn vector(v: [Expansion; 3]) -> ExactVector {
     v.map(ExactNumber::from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_magnitude_is_not_negative() {
+        for number in [-2.5, 0.0, 2.5].map(ExactNumber::from) {
+            let magnitude = number.magnitude();
+            assert_eq!((&magnitude - &number).sign() == Sign::Zero, number.sign() != Sign::Negative);
+            assert_eq!((&magnitude + &number).sign() == Sign::Zero, number.sign() != Sign::Positive);
+        }
+    }
+}

@@ -264,7 +264,7 @@ impl Footprint {
             }
             let crossing = -at_zero / slope;
             let margin = 1e-9 + crossing.abs() * 1e-13;
-            if slope > 0.0 {
+            if slope.is_sign_positive() {
                 let bound = (crossing - margin).ceil();
                 if bound > f64::from(last) {
                     return None;
@@ -388,3 +388,6 @@ fn clip(polygon: &[DVec3], distance: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     }
     inside
 }
+
+#[cfg(test)]
+mod tests;

@@ -209,4 +209,33 @@ mod tests {
             prop_assert!(outline.spans([0, 20]).all(|(row, [left, right])| row < 20 && left <= right && right < 20));
         }
     }
+
+    #[test]
+    fn a_row_is_widened_by_the_error_and_by_rounding() {
+        let grid = Grid { origin: [0.0; 2], step: [1.0; 2], half: [0.5; 2], count: [40; 2] };
+        // In row 19 with an error of 1: half a box, the error, and 1e-12 of 1 + 19 + 1.
+        let met = |from: f64, to: f64| span(&grid, &[[[3.0, from], [3.0, to]]], 1.0, 19);
+        let margin = 0.5 + 1.0 + 1e-12 * (1.0 + 19.0 + 1.0);
+        let (low, high) = (19.0 - margin, 19.0 + margin);
+        let columns = Some([2, 4]);
+        for border in [19.0 + 1.5 + 20.5e-12, 19.0 - 1.5 - 20.5e-12, low, high] {
+            assert_eq!(met(border, border), columns, "{border}");
+        }
+        for beside in [19.0 + 1.5 + 21.5e-12, 19.0 - 1.5 - 21.5e-12] {
+            assert_eq!(met(beside, beside), None, "{beside}");
+        }
+        // One end on the border is enough.
+        assert_eq!([met(low, 0.0), met(0.0, low), met(high, 39.0), met(39.0, high)], [columns; 4]);
+        assert_eq!(met(0.0, 39.0), columns);
+    }
+
+    #[test]
+    fn columns_far_from_the_origin_are_widened_by_rounding() {
+        let far = 1e6;
+        let grid = Grid { origin: [far, 0.0], step: [1.0; 2], half: [0.5; 2], count: [8; 2] };
+        let met = |left: f64, right: f64| span(&grid, &[[[far + left, 0.0], [far + right, 0.0]]], 0.0, 0);
+        // 1e-12 of both ends, 2e-6.
+        assert_eq!(met(1.5 + 1.9e-6, 2.5 - 1.9e-6), Some([1, 3]));
+        assert_eq!(met(1.5 + 2.1e-6, 2.5 - 2.1e-6), Some([2, 2]));
+    }
 }

@@ -243,5 +243,32 @@ mod tests {
         assert_eq!(value, -10.0);
         // 3 (12 * 5 + 2 * 7) roundoffs.
         assert!((bound / (222.0 * ROUNDOFF) - 1.0).abs() < 1e-9, "{bound:e}");
+        // The bound itself is rounded, and a little larger for that.
+        assert!(bound > 222.0 * ROUNDOFF);
+    }
+
+    #[test]
+    fn triangles_of_hulls_are_turned_towards_who_sees_them() {
+        let [a, b, c] =
+            [DVec3::new(-5.0, -5.0, 0.0), DVec3::new(-4.0, -5.0, 0.0), DVec3::new(-5.0, -4.0, 0.0)];
+        let bounds = (Vec3::splat(-9.0), Vec3::splat(9.0));
+        for above in [1.0, -1.0] {
+            let lights = [LightPosition::At(Vec3::Z * above), LightPosition::Towards(Vec3::Z * above)];
+            for light in lights {
+                let space = LightSpace::new(light, bounds);
+                for corners in [[a, b, c], [a, c, b]] {
+                    let planes =
+                        OrientedPlanes::of_hull_for(&space, corners).expect("it is seen from the front");
+                    // Away from the light, and with the edges the same way round.
+                    assert_eq!(planes.own.normal, DVec3::Z * -f64::from(above));
+                    let inside = (a + b + c) / 3.0 - space.origin().as_dvec3();
+                    let value = |i: usize| planes.edges[i].normal.dot(inside) - planes.offsets[i].0;
+                    assert!((0..3).all(|i| value(i) > 0.0));
+                }
+            }
+        }
+        let edge_on =
+            |light| OrientedPlanes::of_hull_for(&LightSpace::new(light, bounds), [a, b, c]).is_none();
+        assert!(edge_on(LightPosition::At(Vec3::X)) && edge_on(LightPosition::Towards(Vec3::Y)));
     }
 }

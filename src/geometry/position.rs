@@ -99,11 +99,17 @@ impl ExactPosition {
 }
 
 /// The hit point in double-double arithmetic, if its error bound allows no other rounding.
+fn round_in_double_double(origin: Vec3, direction: Vec3, triangle: [Vec3; 3]) -> Option<DVec3> {
+    let [x, y, z] = in_double_double(origin, direction, triangle)?;
+    Some(DVec3::new(x.rounded()?, y.rounded()?, z.rounded()?))
+}
+
+/// The coordinates of the hit point; `None` if the ray may be parallel to the triangle's plane.
 ///
 /// With u the roundoff of one double-double operation: the components of the normal carry at most 3u of the
 /// sum of their absolute terms (differences of f32 are exact), scalar products 3u more; each bound below
 /// takes 16u of the sum of absolute terms, more than twice what the count asks for.
-fn round_in_double_double(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -> Option<DVec3> {
+fn in_double_double(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -> Option<[BoundedDouble; 3]> {
     const BOUND: f64 = 16.0 * DoubleDouble::ROUNDOFF;
     let vector = |p: Vec3, q: Vec3| [0, 1, 2].map(|i| DoubleDouble::difference(p[i], q[i]));
     let (e, f, g) = (vector(b, a), vector(c, a), vector(a, origin));
@@ -130,9 +136,9 @@ fn round_in_double_double(origin: Vec3, direction: Vec3, [a, b, c]: [Vec3; 3]) -
         let step = t.multiply(d[i]);
         let sum = step.add(DoubleDouble { high: start, low: 0.0 });
         let error = d[i].high.abs() * t_error + BOUND * (start.abs() + step.high.abs());
-        BoundedDouble::from_parts(sum, error).rounded()
+        BoundedDouble::from_parts(sum, error)
     };
-    Some(DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?))
+    Some([0, 1, 2].map(coordinate))
 }
 
 #[cfg(test)]
@@ -179,6 +185,27 @@ mod tests {
             let (scale, length) = (2.0_f32.powi(places), 2.0_f32.powi(directions));
             let hit = round_in_double_double(origin * scale, direction * length, triangle.map(|p| p * scale));
             assert!(hit.is_some(), "2^{places} and 2^{directions}");
+        }
+    }
+
+    #[test]
+    fn coordinates_are_as_uncertain_as_is_derived() {
+        // Along z, with n = (0, 0, 4) and t = 2. In units of the bound: the height 8 within 8, the slope 4 within 4, so
+        // that t is within 1.5 (8 + 2 * 4) / 4 + 2 = 8, and z = 16 + 2 within 8 + 16 + 2.
+        let corners = [[-1.0, -1.0, 18.0], [1.0, -1.0, 18.0], [0.0, 1.0, 18.0]];
+        for axis in 0..3 {
+            let turned = |mut p: [f32; 3]| {
+                p.rotate_left(axis);
+                Vec3::from(p)
+            };
+            let origin = turned([5.0, 0.0, 16.0]);
+            let found =
+                in_double_double(origin, turned([0.0, 0.0, 1.0]), corners.map(turned)).expect("it is hit");
+            let (x, z) = (found[(3 - axis) % 3], found[2 - axis]);
+            assert_eq!((x.rounded(), z.rounded()), (Some(5.0), Some(18.0)));
+            let bound = 16.0 * DoubleDouble::ROUNDOFF;
+            assert!((x.parts().1 / (5.0 * bound) - 1.0).abs() < 1e-9, "{}", x.parts().1 / bound);
+            assert!((z.parts().1 / (26.0 * bound) - 1.0).abs() < 1e-9, "{}", z.parts().1 / bound);
         }
     }
 

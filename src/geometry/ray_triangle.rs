@@ -100,9 +100,7 @@ pub fn hit_beyond(
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (o, d) = (origin.as_dvec3(), direction.as_dvec3());
     for (k, (p, q)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-        // One rounding of each difference, twice over.
-        let relative = o - p;
-        let (value, bound) = Plane::through(q - p, -d).dot(relative, relative.abs() * f64::EPSILON);
+        let (value, bound) = rounded_edge_along(o, d, [p, q]);
         let sign = Sign::certain(value, bound).unwrap_or_else(|| edge_along(origin, direction, corners, k));
         if sign == Sign::Negative {
             return None;
@@ -124,6 +122,13 @@ pub fn hit_beyond(
         exact_parameter(origin, direction, corners).order(&start.exact(origin, direction))
     });
     (order == Ordering::Greater).then_some(hit)
+}
+
+/// The side of the plane through an edge along a ray that its origin is on, and the bound of its error.
+fn rounded_edge_along(origin: DVec3, direction: DVec3, [p, q]: [DVec3; 2]) -> (f64, f64) {
+    // One rounding of each difference, twice over.
+    let relative = origin - p;
+    Plane::through(q - p, -direction).dot(relative, relative.abs() * f64::EPSILON)
 }
 
 /// The exact side of the plane through edge k along a ray.
@@ -228,6 +233,54 @@ mod tests {
             assert!(place(at(2.0)).iter().all(|same| near.order(same) == Ordering::Equal));
             assert!(place(at(3.0)).iter().all(|far| near.order(far) == Ordering::Less));
             assert!(place(at(-3.0)).iter().all(|behind| near.order(behind) == Ordering::Greater));
+        }
+    }
+
+    #[test]
+    fn the_side_of_an_edge_is_as_uncertain_as_is_derived() {
+        // Along z, beside an edge along x: n = (0, 6, 0), the origin 5 beside it.
+        let (value, bound) =
+            rounded_edge_along(DVec3::Y * -5.0, DVec3::Z * 2.0, [DVec3::ZERO, DVec3::X * 3.0]);
+        assert_eq!(value, -30.0);
+        // 6 (12 * 5 + 2 * 2 * 5).
+        assert!((bound / (480.0 * ROUNDOFF) - 1.0).abs() < 1e-9, "{}", bound / ROUNDOFF);
+    }
+
+    #[test]
+    fn a_slope_that_floats_hardly_know_tells_no_place() {
+        // The normal is (0, 0, 1), the difference of products of 2^48.
+        let large = 16_777_216.0;
+        let a = Vec3::Z;
+        let corners =
+            [a, a + Vec3::new(large - 1.0, large - 2.0, 0.0), a + Vec3::new(large, large - 1.0, 0.0)];
+        let hit = RayTriangle::new(Vec3::ZERO, corners)
+            .and_then(|triangle| triangle.hit(Vec3::Z))
+            .expect("a corner");
+        assert_eq!((hit.value, hit.error), (1.0, f64::INFINITY));
+        let hit = hit_beyond(Vec3::ZERO, Vec3::Z, corners, &RayStart::origin()).expect("a corner");
+        assert_eq!((hit.value, hit.error), (1.0, f64::INFINITY));
+    }
+
+    #[test]
+    fn texels_do_not_depend_on_the_side_that_a_triangle_is_seen_from() {
+        use crate::geometry::ExactPosition;
+        use crate::geometry::LightSpace;
+        use crate::geometry::occlusion::PreciseQuery;
+        // Four columns along x and two rows along y.
+        let corners = [Vec3::new(0.0, 0.0, 2.0), Vec3::new(4.0, 0.0, 2.0), Vec3::new(0.0, 4.0, 2.0)];
+        let axis = |coordinates: [f32; 3], size: u32| TexelAxis { coordinates, size };
+        let axes = [axis([0.0, 1.0, 0.0], 4), axis([0.0, 0.0, 1.0], 2)];
+        let (x, y) = (2.5, 0.5);
+        for z in [0.0, 4.0] {
+            let origin = Vec3::new(x, y, z);
+            let direction = Vec3::Z * (2.0 - z);
+            let expected = [Place::Near(2), Place::Near(0)];
+            let triangle = RayTriangle::new(origin, corners).expect("seen");
+            assert_eq!(triangle.texels(corners, direction, &axes), expected);
+            let point = Vec3::new(x, y, 4.0 - z);
+            let query =
+                PreciseQuery::new(&LightSpace::from(origin), point.as_dvec3(), || ExactPosition::Bare(point));
+            assert_eq!(query.texels(corners, &axes), expected);
         }
     }
 }

@@ -95,3 +95,37 @@ impl Number for Surd {
         Some(self.exact_sign())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_with_other_roots_are_in_order() {
+        let number = |a: f64, b: f64, d: f64| {
+            Surd::new(Dyadic::from_f64(a), Dyadic::from_f64(b), Arc::new(Dyadic::from_f64(d)))
+        };
+        // sqrt 2, 3 / 2, sqrt 3, 3, 4 - sqrt 2 / 2, 2 + sqrt 3.
+        let ascending = [
+            number(0.0, 1.0, 2.0),
+            Surd::exactly(1.5),
+            number(0.0, 1.0, 3.0),
+            Surd::exactly(3.0),
+            number(4.0, -0.5, 2.0),
+            number(2.0, 1.0, 3.0),
+        ];
+        for (i, one) in ascending.iter().enumerate() {
+            for (j, other) in ascending.iter().enumerate() {
+                let expected = Sign::of(i as f64 - j as f64);
+                assert_eq!(one.sign_of_difference(other), expected, "{i} {j}");
+            }
+        }
+        // Equal but for the root, on either side.
+        let root = number(3.0, 1.0, 2.0);
+        let three = Surd::exactly(3.0);
+        assert_eq!(
+            [three.sign_of_difference(&root), root.sign_of_difference(&three)],
+            [Sign::Negative, Sign::Positive]
+        );
+    }
+}

@@ -192,6 +192,19 @@ mod tests {
         assert_eq!([1e16, f32::MAX].map(|far| place(1.0, 0.0, far)), [None; 2]);
         assert_eq!(place(1e-200, 0.0, 0.5), Some(0));
         assert_eq!(place(1e-200, 1e-203, 0.5), Some(0));
+        // From 0.75 to 1.05: the lower end alone, or the product of both, would be certain.
+        assert_eq!(place(1.0, 0.04, 0.9), None);
+        // The sum is three, within 1.5 and what lies below by rounding.
+        let error = 0.5 - 4.0 * ROUNDOFF;
+        assert_eq!([place(1.0, error, 0.0), place(1.0, error.next_down(), 0.0)], [None; 2]);
+        let quotient = |error: f64, coordinate: f32| {
+            let weights = Weights { rounded: [(1.0, error); 3], exact: || unreachable!() };
+            weights.quotient(&TexelAxis { coordinates: [coordinate; 3], size: 1 })
+        };
+        assert!(quotient(error, 0.0).is_none() && quotient(error.next_down(), 0.0).is_some());
+        // 2 (0.75 + 0.75) / (3 - 0.75), and nothing but what may underflow.
+        assert!(quotient(0.25, 1.0).is_some_and(|(_, error)| (error * 0.75 - 1.0).abs() < 1e-12));
+        assert_eq!(quotient(0.0, 0.0), Some((0.0, f64::MIN_POSITIVE)));
     }
 
     #[test]

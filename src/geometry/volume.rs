@@ -173,8 +173,8 @@ fn join(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> (Vec3, Vec3) {
 }
 
 fn smaller(low: Vec3, high: Vec3, centre: Vec3, distances: impl Iterator<Item = f64>) -> Volume {
-    // Rounded up by more than the distances are wrong by; never so small that squares underflow.
-    let radius = distances.fold(0.0, f64::max) * (1.0 + ROUNDINGS);
+    // The next f32 is above by more than the distances are wrong by; never so small that squares underflow.
+    let radius = distances.fold(0.0, f64::max);
     let sphere = Volume::Sphere { centre, radius: (radius as f32).next_up() };
     let around = Volume::Box { low, high };
     if sphere.surface() < around.surface() { sphere } else { around }
@@ -191,7 +191,8 @@ fn may_meet_box(low: DVec3, high: DVec3, segment: &LightSegment) -> bool {
     let half = half_extent(low, high, middle, segment);
     let misses = |i: usize, j: usize| {
         let value = d[i] * middle[j] - d[j] * middle[i];
-        value.abs() > (size[i] * half[j] + size[j] * half[i]) * (1.0 + ROUNDINGS) + 1e-300
+        // The roundings of the products and of this sum are in the half extents.
+        value.abs() > size[i] * half[j] + size[j] * half[i]
     };
     !(misses(0, 1) || misses(1, 2) || misses(2, 0))
 }
@@ -247,7 +248,7 @@ mod tests {
         let chosen = Volume::around(points.iter().copied()).unwrap();
         let centre = low * 0.5 + high * 0.5;
         let far = points.iter().map(|p| (p.as_dvec3() - centre.as_dvec3()).length()).fold(0.0, f64::max);
-        let radius = ((far * (1.0 + ROUNDINGS)) as f32).next_up();
+        let radius = (far as f32).next_up();
         [Volume::Box { low, high }, Volume::Sphere { centre, radius }, chosen]
     }
 
@@ -396,5 +397,25 @@ mod tests {
         let segment = LightSegment::new(&Vec3::ZERO.into(), DVec3::splat(1e-150));
         let far = Volume::Sphere { centre: Vec3::ONE, radius: 0.5 };
         assert!(far.may_be_met_by(&segment));
+    }
+
+    #[test]
+    fn a_surface_is_that_of_all_sides() {
+        let low = Vec3::new(1.0, 2.0, -3.0);
+        assert_eq!(Volume::Box { low, high: low + Vec3::new(2.0, 3.0, 5.0) }.surface(), 62.0);
+    }
+
+    #[test]
+    fn what_a_segment_only_touches_is_met() {
+        let sphere = Volume::Sphere { centre: Vec3::Y, radius: 1.0 };
+        let cube = Volume::Box { low: Vec3::new(-1.0, 0.0, 0.0), high: Vec3::new(1.0, 2.0, 1.0) };
+        let along_x = LightSegment::new(&LightSpace::from(Vec3::X * -9.0), DVec3::X * 9.0);
+        let diagonal =
+            LightSegment::new(&LightSpace::from(Vec3::new(-2.0, 1.0, 0.5)), DVec3::new(0.0, -1.0, 0.5));
+        assert!(
+            sphere.may_be_met_by(&along_x) && cube.may_be_met_by(&along_x) && cube.may_be_met_by(&diagonal)
+        );
+        let point = LightSegment::new(&LightSpace::from(Vec3::ZERO), DVec3::ZERO);
+        assert!(sphere.may_be_met_by(&point) && cube.may_be_met_by(&point));
     }
 }

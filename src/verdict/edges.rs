@@ -128,7 +128,7 @@ mod tests {
     use crate::shadow::shadow_buffer::sphere::Sphere;
     use crate::shadow::shadow_buffer::{DepthBias, Lookup, ShadowBuffer, ShadowBufferSettings};
     use crate::shadow::{BuildInput, SceneIndex, ShadowTester};
-    use crate::visibility::t_buffer;
+    use crate::visibility::{PointSource, t_buffer};
 
     const LIGHT: Vec3 = Vec3::new(5.0, 8.0, 4.0);
     const SIZE: ImageSize = ImageSize { width: 240, height: 160 };
@@ -231,5 +231,73 @@ mod tests {
         assert!(edges.are_near(&on(Vec3::new(0.0, 4.0, 0.0)), 0.1));
         assert!(edges.are_near(&on(Vec3::new(-0.33, 4.33, 0.0)), 0.02));
         assert!(!edges.are_near(&on(Vec3::new(-3.0, 0.0, 3.0)), 0.1));
+    }
+
+    /// An edge in the direction z and nothing else, as a light at [`LIGHT`] sees it.
+    fn one_edge(scene: &Scene) -> ShadowEdges<'_> {
+        ShadowEdges { scene, light: LIGHT, directions: vec![DVec3::Z] }
+    }
+
+    #[test]
+    fn an_edge_is_near_up_to_the_angle_between_directions() {
+        let scene = SceneBuilder::new("nothing").finish();
+        let edges = one_edge(&scene);
+        let at = |position: DVec3| SurfacePoint { position, source: PointSource::Bare };
+        for between in [1e-6, 0.01, 0.5, 1.5, 2.5, 3.1] {
+            let direction = DVec3::new(libm::sin(between), 0.0, libm::cos(between));
+            let point = at(LIGHT.as_dvec3() + 7.0 * direction);
+            // Coordinates of a few metres are known within 1e-15, and chords near half a turn hardly tell angles apart.
+            let (less, more) = (between * (1.0 - 1e-6), between * (1.0 + 1e-6));
+            assert!(!edges.are_near(&point, less) && edges.are_near(&point, more), "{between}");
+        }
+        // Nothing is farther than half a turn.
+        let opposite = at(LIGHT.as_dvec3() - DVec3::Z);
+        assert!(!edges.are_near(&opposite, 3.0) && edges.are_near(&opposite, 4.0));
+    }
+
+    #[test]
+    fn a_silhouette_is_near_up_to_the_angle_on_whatever_side_it_is() {
+        for (turn, angle) in (0..50).flat_map(|turn| [(turn, 0.01), (turn, 0.5)]) {
+            let turn = TAU * f64::from(turn) / 50.0;
+            let (across, along) = (
+                DVec3::new(libm::cos(turn), libm::sin(turn), 0.0),
+                DVec3::new(-libm::sin(turn), libm::cos(turn), 0.0),
+            );
+            // A triangle five before the light whose one side passes by its middle in the direction `across`.
+            let near = |share: f64| {
+                let side = 5.0 * libm::tan(angle) * share;
+                let corner =
+                    |a: f64, b: f64| (LIGHT.as_dvec3() + across * a + along * b + 5.0 * DVec3::Z).as_vec3();
+                let corners = vec![corner(side, -9.0), corner(side, 9.0), corner(-20.0, 0.0)];
+                let mut builder = SceneBuilder::new("test");
+                builder.add_object(ObjectInput::new("t", corners, vec![[0, 1, 2]])).unwrap();
+                let scene = builder.finish();
+                let edges = ShadowEdges { directions: Vec::new(), ..one_edge(&scene) };
+                edges.are_near(&SurfacePoint::on_ray(&scene, LIGHT, Vec3::Z, 0), angle)
+            };
+            // The ring has 32 rays: one of them is within a 64th of a turn of every side, and cos(tau / 64) > 0.995.
+            assert!(near(0.99) && !near(1.01), "{turn} {angle}");
+        }
+    }
+
+    #[test]
+    fn an_object_is_hit_where_its_own_primitives_are() {
+        // Three objects of three triangles and three balls each, all of them in directions of their own.
+        let aim = |i: u32| Vec3::new(i as f32 - 9.0, 0.0, 20.0);
+        let mut builder = SceneBuilder::new("test");
+        for object in 0..3 {
+            let own = |k: u32| LIGHT + aim(6 * object + k);
+            let corners =
+                (0..3).flat_map(|k| [Vec3::X, Vec3::Y, Vec3::NEG_ONE].map(|side| own(k) + 0.25 * side));
+            let triangles = vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]];
+            let curved = (3..6).map(|k| Shape::sphere(own(k), 0.25)).collect();
+            let input = ObjectInput { curved, ..ObjectInput::new("o", corners.collect(), triangles) };
+            builder.add_object(input).unwrap();
+        }
+        let scene = builder.finish();
+        for (number, object) in (0..).zip(&scene.objects) {
+            let hit: Vec<u32> = (0..18).filter(|&i| is_hit(&scene, object, LIGHT, aim(i))).collect();
+            assert_eq!(hit, (6 * number..6 * number + 6).collect::<Vec<u32>>());
+        }
     }
 }

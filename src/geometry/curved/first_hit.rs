@@ -132,3 +132,78 @@ fn is_exactly_within(on_line: &OnLine<Surd>, t: &ExactParameter) -> bool {
             value.exact_sign() != Sign::Negative
         })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::curved::{Disc, InfinitePlane, Quadric};
+
+    fn rounded(shape: &Shape, origin: Vec3, direction: Vec3) -> Decided {
+        rounded_hit(shape, origin, direction, RayStart::origin().rounded())
+    }
+
+    /// What floats find: the place and the way through.
+    #[track_caller]
+    fn hit(shape: &Shape, origin: Vec3, direction: Vec3) -> (f64, Crossing) {
+        match rounded(shape, origin, direction) {
+            Decided::Hit(hit) => (hit.parameter.value, hit.crossing),
+            Decided::Miss => panic!("missed"),
+            Decided::Open => panic!("open"),
+        }
+    }
+
+    fn is_missed(shape: &Shape, origin: Vec3, direction: Vec3) -> bool {
+        matches!(rounded(shape, origin, direction), Decided::Miss)
+    }
+
+    #[test]
+    fn ordinary_rays_need_no_exact_arithmetic() {
+        let ball = Shape::sphere(Vec3::Z * 5.0, 1.0);
+        assert_eq!(hit(&ball, Vec3::ZERO, Vec3::Z), (4.0, Crossing::Entering));
+        assert_eq!(hit(&ball, Vec3::Z * 4.5, Vec3::Z), (1.5, Crossing::Leaving));
+        assert!(is_missed(&ball, Vec3::X * 3.0, Vec3::Z) && is_missed(&ball, Vec3::ZERO, -Vec3::Z));
+        let cylinder = Shape::cylinder(Vec3::ZERO, Vec3::Y * 2.0, 1.0);
+        let (place, crossing) = hit(&cylinder, Vec3::new(-3.0, 1.0, 0.0), Vec3::new(1.0, 0.125, 0.0));
+        assert!((place - 2.0).abs() < 1e-12 && crossing == Crossing::Entering);
+        assert!(is_missed(&cylinder, Vec3::new(-3.0, 3.0, 0.0), Vec3::X));
+        let plane = Shape::Plane(InfinitePlane { point: Vec3::Z * 2.0, normal: Vec3::Z });
+        assert_eq!(hit(&plane, Vec3::Z * 5.0, -Vec3::Z), (3.0, Crossing::Entering));
+        assert_eq!(hit(&plane, Vec3::ZERO, Vec3::Z), (2.0, Crossing::Leaving));
+        assert!(is_missed(&plane, Vec3::ZERO, Vec3::X));
+        let disc = Shape::Disc(Disc { centre: Vec3::Z * 2.0, normal: Vec3::Z, radius: 1.0 });
+        assert_eq!(hit(&disc, Vec3::ZERO, Vec3::Z), (2.0, Crossing::Leaving));
+        assert!(is_missed(&disc, Vec3::X * 1.5, Vec3::Z));
+    }
+
+    #[test]
+    fn the_nearer_of_two_hits_counts_whichever_way_it_goes_through() {
+        // x^2 + y^2 - z^2 = 1: along z a ray outside of the waist leaves the inside and enters it again.
+        let waist = Shape::Quadric(Quadric {
+            reference: Vec3::ZERO,
+            second: [1.0, 1.0, -1.0, 0.0, 0.0, 0.0],
+            first: Vec3::ZERO,
+            constant: -1.0,
+            low: Vec3::splat(-20.0),
+            high: Vec3::splat(20.0),
+        });
+        let (place, crossing) = hit(&waist, Vec3::new(2.0, 0.0, -10.0), Vec3::Z);
+        assert!((place - (10.0 - 3.0_f64.sqrt())).abs() < 1e-12);
+        assert_eq!(crossing, Crossing::Leaving);
+    }
+
+    #[test]
+    fn rims_belong_to_discs_exactly() {
+        let disc = Shape::Disc(Disc { centre: Vec3::Z * 5.0, normal: Vec3::Z, radius: 1.0 });
+        let is_hit =
+            |x: f32| disc.first_hit(Vec3::ZERO, Vec3::new(x, 0.0, 5.0), &RayStart::origin()).is_some();
+        assert_eq!([1.0_f32.next_down(), 1.0, 1.0_f32.next_up()].map(is_hit), [true, true, false]);
+    }
+
+    #[test]
+    fn a_touch_is_told_from_what_passes_through_or_by() {
+        let ball = Shape::sphere(Vec3::Z * 5.0, 1.0);
+        let is_touched = |x: f32| ball.is_touched(Vec3::X * x, Vec3::Z);
+        let touched = [0.0, 1.0_f32.next_down(), 1.0, 1.0_f32.next_up(), 3.0].map(is_touched);
+        assert_eq!(touched, [false, false, true, false, false]);
+    }
+}

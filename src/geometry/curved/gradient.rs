@@ -61,4 +61,22 @@ mod tests {
         let ellipsoid = Shape::Ellipsoid(Ellipsoid { centre: Vec3::ZERO, axes });
         assert_eq!(across(ellipsoid, [3.0, 0.0, 0.0]), DVec3::X);
     }
+
+    #[test]
+    fn the_gradient_of_a_quadric_is_that_of_its_polynomial() {
+        // 1.5 x^2 + 2 y^2 + 3 z^2 + 4 xy + 5 yz + 6 zx + 7 x + 8 y + 9 z, at (2, 3, 5) from the reference.
+        let quadric = Quadric {
+            reference: Vec3::new(1.0, -1.0, 2.0),
+            second: [1.5, 2.0, 3.0, 4.0, 5.0, 6.0],
+            first: Vec3::new(7.0, 8.0, 9.0),
+            constant: 10.0,
+            low: Vec3::splat(-9.0),
+            high: Vec3::splat(9.0),
+        };
+        let found = Shape::Quadric(quadric).gradient(DVec3::new(3.0, 2.0, 7.0));
+        let along_x = 2.0 * 1.5 * 2.0 + 4.0 * 3.0 + 6.0 * 5.0 + 7.0;
+        let along_y = 4.0 * 2.0 + 2.0 * 2.0 * 3.0 + 5.0 * 5.0 + 8.0;
+        let along_z = 6.0 * 2.0 + 5.0 * 3.0 + 2.0 * 3.0 * 5.0 + 9.0;
+        assert_eq!(found, DVec3::new(along_x, along_y, along_z));
+    }
 }

@@ -71,8 +71,13 @@ fn around_ball(shape: &Shape, centre: Vec3, axes: [DVec3; 3]) -> Hull {
         let (low, high) = shape.bounds().expect("a ball has an end");
         return box_between(low, high);
     }
+    icosahedron(centre.as_dvec3(), axes.map(|axis| axis * scale))
+}
+
+/// The image of a regular icosahedron around the origin, of edges of length 2.
+fn icosahedron(centre: DVec3, axes: [DVec3; 3]) -> Hull {
     let (corners, faces) = &*ICOSAHEDRON;
-    let place = |p: DVec3| centre.as_dvec3() + (axes[0] * p.x + axes[1] * p.y + axes[2] * p.z) * scale;
+    let place = |p: DVec3| centre + axes[0] * p.x + axes[1] * p.y + axes[2] * p.z;
     faces.iter().map(|face| face.map(|i| place(corners[i]))).collect()
 }
 
@@ -101,15 +106,8 @@ fn around_disc(disc: &Disc) -> Hull {
 
 /// Around two circles across one axis.
 fn around_circles(centres: [DVec3; 2], axis: DVec3, radii: [f64; 2]) -> Hull {
-    let (u, v) = axis.any_orthonormal_pair();
-    let ring = |end: usize| -> [DVec3; SIDES] {
-        std::array::from_fn(|i| {
-            let angle = 2.0 * PI * i as f64 / SIDES as f64;
-            let reach = radii[end] / libm::cos(PI / SIDES as f64) * (1.0 + MARGIN);
-            centres[end] + (u * libm::cos(angle) + v * libm::sin(angle)) * reach
-        })
-    };
-    let (low, high) = (ring(0), ring(1));
+    let reach = |end: usize| radii[end] / libm::cos(PI / SIDES as f64) * (1.0 + MARGIN);
+    let [low, high] = [0, 1].map(|end| ring(centres[end], axis, reach(end)));
     let mut hull = Hull::new();
     for i in 0..SIDES {
         let j = (i + 1) % SIDES;
@@ -119,12 +117,21 @@ fn around_circles(centres: [DVec3; 2], axis: DVec3, radii: [f64; 2]) -> Hull {
     hull
 }
 
+/// The corners of a regular polygon across an axis.
+fn ring(centre: DVec3, axis: DVec3, reach: f64) -> [DVec3; SIDES] {
+    let (u, v) = axis.any_orthonormal_pair();
+    std::array::from_fn(|i| {
+        let angle = 2.0 * PI * i as f64 / SIDES as f64;
+        centre + (u * libm::cos(angle) + v * libm::sin(angle)) * reach
+    })
+}
+
 /// A box along the axes.
 fn box_between(low: Vec3, high: Vec3) -> Hull {
     let size = (high.as_dvec3() - low.as_dvec3()).max_element();
     let wider = DVec3::splat(size * MARGIN + allowance(low).max(allowance(high)));
     let ends = [low.as_dvec3() - wider, high.as_dvec3() + wider];
-    let corner = |i: usize| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z);
+    let corner = |i: usize| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z);
     let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
     let halves = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
     halves.map(|triangle: [usize; 3]| triangle.map(corner)).collect()
@@ -267,5 +274,37 @@ mod tests {
             .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[a, b], &p| [a.min(p), b.max(p)]);
         let more = [low.as_dvec3() - bounds[0], bounds[1] - high.as_dvec3()];
         assert!(more.iter().all(|more| (*more - wider).abs().max_element() < 1e-9), "{more:?}");
+    }
+
+    #[test]
+    fn hulls_of_round_shapes_are_wider_at_both_ends() {
+        let ends = |hull: Hull| {
+            let along = hull.iter().flatten().map(|p| p.y);
+            along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
+        };
+        let [low, high] = ends(outer(&Shape::cone(Vec3::ZERO, 2.0, Vec3::Y * 16.0, 1.0)).unwrap());
+        // A millionth of the length and of the larger radius, and next to nothing for where it is.
+        assert!((low + 18e-6).abs() < 1e-9 && (high - 16.0 - 18e-6).abs() < 1e-9, "{low} {high}");
+        let disc = Shape::Disc(Disc { centre: Vec3::Y * 3.0, normal: Vec3::Y * 7.0, radius: 2.0 });
+        let [low, high] = ends(outer(&disc).unwrap());
+        assert!((low - 3.0 + 2e-6).abs() < 1e-9 && (high - 3.0 - 2e-6).abs() < 1e-9, "{low} {high}");
+    }
+
+    #[test]
+    fn flat_ellipsoids_are_widened_for_the_rounding_of_their_longest_axis() {
+        // 2^-40 of 1, over 2^-20.
+        let thin = Shape::Ellipsoid(Ellipsoid {
+            centre: Vec3::ZERO,
+            axes: [Vec3::X, Vec3::Y, Vec3::Z * 2.0_f32.powi(-20)],
+        });
+        let unit: Hull = outer(&thin)
+            .unwrap()
+            .iter()
+            .map(|t| t.map(|p| p * DVec3::new(1.0, 1.0, 2.0_f64.powi(20))))
+            .collect();
+        let [low, high] = faces(&unit, DVec3::ZERO);
+        let scale = 1.0 + 1e-6 + 2.0_f64.powi(-20);
+        assert!(is_about(low, scale) && is_about(high, scale), "{low} to {high}");
+        assert_eq!(allowance(Vec3::ZERO), f64::MIN_POSITIVE);
     }
 }

@@ -154,11 +154,11 @@ fn in_cone(cone: &Cone, light: LightPosition) -> Option<Vec<DVec3>> {
         return None;
     }
     let aside = axis.cross(side) * (1.0 - cosine * cosine).sqrt();
-    let corner = |along: f64, sign: f64| {
+    let corner = |along: f64, aside: DVec3| {
         let radius = (r0 + (r1 - r0) * along / length) * SMALLER;
-        base + axis * along + (side * cosine + aside * sign) * radius
+        base + axis * along + (side * cosine + aside) * radius
     };
-    Some(vec![corner(low, -1.0), corner(low, 1.0), corner(high, 1.0), corner(high, -1.0)])
+    Some(vec![corner(low, -aside), corner(low, aside), corner(high, aside), corner(high, -aside)])
 }
 
 #[cfg(test)]
@@ -201,8 +201,10 @@ mod tests {
 
     #[test]
     fn polygons_in_balls_lie_where_tangents_touch() {
-        let (at, towards) = (LightPosition::At(Vec3::X * 2.0), LightPosition::Towards(Vec3::X * 3.0));
-        for (light, height, radius) in [(at, 0.5, 0.75_f64.sqrt()), (towards, 0.0, 1.0)] {
+        let (at, towards) = (|x: f32| LightPosition::At(Vec3::X * x), LightPosition::Towards(Vec3::X * 3.0));
+        for (light, height, radius) in
+            [(at(2.0), 0.5, 0.75_f64.sqrt()), (at(4.0), 0.25, 0.9375_f64.sqrt()), (towards, 0.0, 1.0)]
+        {
             let corners = polygon(&Shape::sphere(Vec3::ZERO, 1.0), light).expect("a polygon");
             assert_eq!(corners.len(), SIDES);
             for (i, p) in corners.iter().enumerate() {
@@ -234,6 +236,10 @@ mod tests {
         assert!(has(Vec3::ZERO, [1.0; 3], 0.9e9) && !has(Vec3::ZERO, [1.0; 3], 1.1e9));
         assert!(has(Vec3::ZERO, [1.0, 1.0, 0.0011], 2.0) && !has(Vec3::ZERO, [1.0, 1.0, 0.0009], 2.0));
         assert!(has(Vec3::Y * 0.9e6, [1.0; 3], 2.0) && !has(Vec3::Y * 1.1e6, [1.0; 3], 2.0));
+        // However large they are.
+        assert!(
+            has(Vec3::ZERO, [100.0, 100.0, 0.11], 200.0) && !has(Vec3::ZERO, [100.0, 100.0, 0.09], 200.0)
+        );
     }
 
     #[test]
@@ -274,12 +280,14 @@ mod tests {
         let aside = 0.91_f64.sqrt();
         let check = |radii: [f32; 2], light: LightPosition, [low, high]: [f64; 2]| {
             let found = corners(radii, light).expect("a polygon");
+            // It is a little smaller, and ends a hundred-thousandth of the length before the ends.
+            let (low, high) = (low + 1e-4, high - 1e-4);
             let radius = |y: f64| f64::from(radii[0]) + f64::from(radii[1] - radii[0]) * y / 10.0;
-            let corner = |y: f64, z: f64| DVec3::new(0.3 * radius(y), y, aside * z * radius(y));
+            let corner =
+                |y: f64, z: f64| DVec3::new(0.3 * SMALLER * radius(y), y, aside * z * SMALLER * radius(y));
             let expected = [corner(low, 1.0), corner(low, -1.0), corner(high, -1.0), corner(high, 1.0)];
             for (p, q) in found.iter().zip(expected) {
-                let q_or_mirrored = [q, DVec3::new(q.x, q.y, -q.z)];
-                assert!(q_or_mirrored.iter().any(|&q| (*p - q).abs().max_element() < 2e-4), "{p} and {q}");
+                assert!((*p - q).abs().max_element() < 1e-9, "{p} and {q}");
             }
         };
         let (towards, at) = (
@@ -308,5 +316,11 @@ mod tests {
         assert!(corners([1.0; 2], at(4.0, 80.0)).is_none());
         assert!(corners([1e-4, 0.9e-3], towards(1.0, 0.0)).is_none(), "a needle");
         assert!(corners([2e-3, 1e-3], towards(1.0, 0.0)).is_some());
+        assert!(corners([2.0; 2], at(1.9e6, 5.0)).is_some() && corners([2.0; 2], at(2.1e6, 5.0)).is_none());
+        // As flat as that it is no longer a body.
+        assert!(
+            corners([0.9e5; 2], towards(1.0, 0.0)).is_some()
+                && corners([1.1e5; 2], towards(1.0, 0.0)).is_none()
+        );
     }
 }

@@ -77,3 +77,25 @@ impl RayStart {
 fn parameter(t: Bounded) -> RayParameter {
     RayParameter { value: t.value, error: t.error }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::curved::InfinitePlane;
+
+    #[test]
+    fn a_ray_begins_on_a_surface_where_its_line_meets_it() {
+        let ball = Shape::sphere(Vec3::Z * 5.0, 1.0);
+        let start = RayStart::on_curved(Vec3::ZERO, Vec3::Z, &ball, Crossing::Entering).expect("it meets it");
+        assert!(start.rounded().value == 4.0 && start.rounded().error < 1e-12);
+        // Not where it runs beside it.
+        let plane = Shape::Plane(InfinitePlane { point: Vec3::Z, normal: Vec3::Z });
+        assert!(RayStart::on_curved(Vec3::ZERO, Vec3::X, &plane, Crossing::Entering).is_none());
+        // Where it touches, the place is known exactly alone.
+        let touch = RayStart::on_curved(Vec3::X, Vec3::Z, &ball, Crossing::Leaving).expect("it touches it");
+        assert_eq!(
+            touch.exact(Vec3::X, Vec3::Z).order(&start.exact(Vec3::ZERO, Vec3::Z)),
+            std::cmp::Ordering::Greater
+        );
+    }
+}

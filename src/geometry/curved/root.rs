@@ -174,3 +174,43 @@ pub(crate) fn round(numerator: &Surd, denominator: &Surd) -> f64 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_found_without_cancellation() {
+        // t^2 -+ 1e8 t + 1: the roots are next to 1e8 and next to 1e-8.
+        for b in [-1e8_f32, 1e8] {
+            let q = [1.0, b, 1.0].map(Bounded::exactly);
+            let roots =
+                [Crossing::Entering, Crossing::Leaving].map(|crossing| place(&q, crossing).expect("a root"));
+            assert!(roots[0].value < roots[1].value);
+            assert!(roots.iter().all(|root| root.error < root.value.abs() * 1e-14), "{roots:?}");
+        }
+    }
+
+    #[test]
+    fn points_on_ordinary_surfaces_need_no_exact_arithmetic() {
+        let ball = Shape::sphere(Vec3::new(0.1, 0.2, 5.3), 1.7);
+        for crossing in [Crossing::Entering, Crossing::Leaving] {
+            assert!(rounded(Vec3::ZERO, Vec3::new(0.1, -0.03, 0.9), &ball, crossing).is_some());
+        }
+    }
+
+    #[test]
+    fn ties_are_rounded_to_even() {
+        let rational = |value: f64| Surd::rational(Dyadic::from_f64(value));
+        let one = rational(1.0);
+        for sign in [1.0, -1.0] {
+            // Half an ulp above one, and three halves.
+            for (halves, expected) in
+                [(1.0, 1.0), (3.0, 1.0 + 2.0 * f64::EPSILON), (0.9, 1.0), (1.1, 1.0 + f64::EPSILON)]
+            {
+                let number = rational(sign).plus(&rational(sign * halves * 0.5 * f64::EPSILON));
+                assert_eq!(round(&number, &one), sign * expected, "{halves}");
+            }
+        }
+    }
+}

@@ -85,8 +85,8 @@ pub(super) fn passes_by(shape: &Shape, light: LightPosition, rounded: DVec3) -> 
     // products on the other side lose 8 of |from| |along|: 1e-12 is 9,000 roundoffs, 1e-14 is 90.
     let doubt = 1e-12 * (rounded.abs().max_element() + centre.abs().max_element() + from.length());
     let reach = radius * (1.0 + 1e-9) + doubt;
-    // The direction to a light nearby carries the rounding of both ends.
-    let turned = 1e-14 * (rounded.abs().max_element() + along.abs().max_element()) * from.length();
+    // The direction to a light nearby carries the rounding of the point; that of the light's part is in the doubt.
+    let turned = 1e-14 * rounded.abs().max_element() * from.length();
     let across = from.cross(along).length();
     across.is_finite() && across > reach * along.length() + turned
 }

@@ -159,7 +159,7 @@ impl Shape {
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         let around = |centre: DVec3, reach: DVec3| {
             // A few roundings of f64 went into the reach.
-            let reach = reach * (1.0 + 1e-12) + DVec3::splat(f64::MIN_POSITIVE);
+            let reach = reach * (1.0 + 1e-12);
             (outwards(centre - reach, f32::next_down), outwards(centre + reach, f32::next_up))
         };
         Some(match self {

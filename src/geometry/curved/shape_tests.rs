@@ -177,7 +177,7 @@ fn lines_pass_by_a_ball_beyond_what_rounding_can_move_them() {
     assert!(!far(1.0 + doubt * 0.97) && far(1.0 + doubt * 1.03));
     // The distance of the point from the ball alone.
     let long = |y: f64| passes(0.0, Vec3::new(-1e6, 1.0, 0.0), DVec3::new(1e6, 2.0 * y - 1.0, 0.0));
-    let doubt = 1e-9 + 2e-12 * 1e6 + 1e-14 * 3e6 / 2.0;
+    let doubt = 1e-9 + 2e-12 * 1e6 + 1e-14 * 1e6 / 2.0;
     assert!(!long(1.0 + doubt * 0.97) && long(1.0 + doubt * 1.03));
     // A light beside the point: 1e-14 of the places, over their distance, at the distance of the ball.
     let step = 2.0_f64.powi(-6);
@@ -206,4 +206,32 @@ fn a_start_on_a_triangle_is_known_as_well_as_is_derived() {
     assert_eq!(value, 2.0);
     let expected = ((128.0 + 2.0 * 64.0) / 4.0 + 2.0) * ROUNDOFF;
     assert!((error / expected - 1.0).abs() < 1e-9, "{} roundoffs", error / ROUNDOFF);
+}
+
+#[test]
+fn boxes_reach_as_far_as_circles_across_any_axis() {
+    // Across (3, 4, 0) / 5 a circle of radius 5 reaches 4, 3 and 5.
+    let (low, high) = disc(Vec3::ZERO, Vec3::new(3.0, 4.0, 0.0), 5.0).bounds().unwrap();
+    let reach = Vec3::new(4.0, 3.0, 5.0);
+    assert!(
+        (high - reach).abs().max_element() < 1e-5 && (low + reach).abs().max_element() < 1e-5,
+        "{low} {high}"
+    );
+    assert!(high.cmpge(reach).all() && low.cmple(-reach).all());
+}
+
+#[test]
+fn turns_of_any_size_keep_angles() {
+    // Of 1e5 the squares are known within 1e-6: the tolerance grows with them.
+    for size in [1e-5, 3.0, 1e5] {
+        let turn = DMat3::from_axis_angle(DVec3::new(1.0, -2.0, 3.0).normalize(), 1.0) * size;
+        let transform = DAffine3 { matrix3: turn, translation: DVec3::ZERO };
+        let Ok(Shape::Disc(image)) = disc(Vec3::ZERO, Vec3::X, 2.0).transformed(&transform) else {
+            panic!("{size}")
+        };
+        assert!((f64::from(image.radius) / (2.0 * size) - 1.0).abs() < 1e-6);
+        let stretched =
+            DAffine3 { matrix3: turn * DMat3::from_diagonal(DVec3::new(1.0, 1.0, 1.0 + 1e-8)), ..transform };
+        assert!(disc(Vec3::ZERO, Vec3::X, 2.0).transformed(&stretched).is_err());
+    }
 }

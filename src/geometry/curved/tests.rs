@@ -175,3 +175,47 @@ fn points_with_irrational_coordinates_round_correctly() {
     assert_eq!(position(Vec3::new(9.0, 0.0, 0.0)), DVec3::new(2.0, 0.0, 0.0));
     assert_eq!(position(Vec3::new(9.0, 1.0, 1.0)), DVec3::new(2f64.sqrt(), 1.0, 1.0));
 }
+
+/// A ball of radius sqrt 3 that the corners of its box lie on, or one beside them.
+fn in_a_box(constant: f32, low: Vec3) -> Shape {
+    Shape::Quadric(Quadric {
+        reference: Vec3::ZERO,
+        second: [1.0, 1.0, 1.0, 0.0, 0.0, 0.0],
+        first: Vec3::ZERO,
+        constant,
+        low,
+        high: Vec3::ONE,
+    })
+}
+
+#[test]
+fn bounds_that_meet_a_surface_in_corners_are_told_exactly() {
+    let (none, touch) = (Meetings::default(), Meetings { crossings: 0, touches: true });
+    let through = |crossings: u8| Meetings { crossings, touches: false };
+    let (on, beside) = (in_a_box(-3.0, Vec3::NEG_ONE), in_a_box(-2.0, Vec3::NEG_ONE));
+    let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+    // Past a corner.
+    for (shape, expected) in [(on, touch), (beside, none)] {
+        assert_eq!(exactly(&shape, at(3.0, -1.0, 1.0), at(-1.0, 3.0, 1.0)), expected);
+    }
+    // Along an edge from corner to corner, both of which belong to it, and from one that the segment begins in.
+    assert_eq!(exactly(&on, at(1.0, 1.0, -3.0), at(1.0, 1.0, 3.0)), through(2));
+    assert_eq!(exactly(&on, at(1.0, 1.0, -1.0), at(1.0, 1.0, 3.0)), through(1));
+    assert_eq!(exactly(&on, at(1.0, 1.0, -3.0), at(1.0, 1.0, 1.0)), through(1));
+    assert_eq!(exactly(&on, at(1.0, 1.0, -1.0), at(1.0, 1.0, 1.0)), none);
+    // In through the surface and out through the corner, both ways.
+    let deep = in_a_box(-3.0, at(-1.0, -1.0, -5.0));
+    assert_eq!(exactly(&deep, at(1.0, 1.0, -4.0), at(1.0, 1.0, 3.0)), through(2));
+    assert_eq!(exactly(&deep, at(1.0, 1.0, 3.0), at(1.0, 1.0, -4.0)), through(2));
+    // What runs in the surface does not meet it: here the plane x = 1, between two bounds, and in one corner.
+    let flat = Shape::Quadric(Quadric {
+        reference: Vec3::ZERO,
+        second: [0.0; 6],
+        first: Vec3::X,
+        constant: -1.0,
+        low: Vec3::NEG_ONE,
+        high: Vec3::ONE,
+    });
+    assert_eq!(exactly(&flat, at(1.0, 0.5, -3.0), at(1.0, 0.5, 3.0)), none);
+    assert_eq!(exactly(&flat, at(1.0, 3.0, -1.0), at(1.0, -1.0, 3.0)), none);
+}

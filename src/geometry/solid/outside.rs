@@ -72,3 +72,65 @@ fn side_of_first_hits(direction: Vec3, triangles: &[(RayTriangle, Sign)]) -> Opt
     }
     common_side
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_may_hold_a_point_has_it_in_its_box() {
+        let corners = [Vec3::ZERO, Vec3::new(2.0, 4.0, 0.0), Vec3::new(0.0, 4.0, 6.0)];
+        let holds = |x: f32, y: f32, z: f32| may_hold(corners, Vec3::new(x, y, z));
+        assert!(holds(0.0, 0.0, 0.0) && holds(2.0, 4.0, 6.0) && holds(1.0, 1.0, 1.0));
+        assert!(
+            !holds(-0.1, 1.0, 1.0)
+                && !holds(2.1, 1.0, 1.0)
+                && !holds(1.0, 4.1, 1.0)
+                && !holds(1.0, 1.0, -0.1)
+        );
+    }
+
+    #[test]
+    fn the_plane_of_a_side_beside_it_leaves_no_doubt() {
+        // A prism over the letter L: the inner corner is (1, 1), and the light stands in the planes of both inner sides
+        // in turn, and in its bounds.
+        let rim = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        let corner = |i: usize, z: f32| Vec3::new(rim[i % 6][0], rim[i % 6][1], z);
+        let walls = (0..6).flat_map(|i| {
+            let [a, b] = [corner(i, 0.0), corner(i + 1, 0.0)];
+            let [c, d] = [corner(i + 1, 1.0), corner(i, 1.0)];
+            [[a, b, c], [a, c, d]]
+        });
+        let lids = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
+        let lids = lids.iter().flat_map(|&[a, b, c]| {
+            [
+                [corner(a, 1.0), corner(b, 1.0), corner(c, 1.0)],
+                [corner(a, 0.0), corner(c, 0.0), corner(b, 0.0)],
+            ]
+        });
+        let triangles: Vec<_> = walls.chain(lids).collect();
+        let bounds = (Vec3::ZERO, Vec3::new(2.0, 2.0, 1.0));
+        let outside = |x: f32, y: f32| is_outside(Vec3::new(x, y, 0.4), &triangles, bounds, Sign::Negative);
+        assert!(outside(1.5, 1.7) && outside(1.6, 1.5));
+        // In the plane of the upper end, beside that.
+        assert!(outside(3.0, 0.5) && outside(1.5, 2.0));
+        assert!(!outside(0.5, 0.6) && !outside(1.7, 0.45));
+        // In a plane beyond its side, and on a side.
+        assert!(outside(1.0, 3.0) && outside(1.95, 1.9) && !outside(1.0, 1.5) && !outside(1.5, 1.0));
+    }
+
+    #[test]
+    fn what_is_hit_first_tells_unless_two_sides_are() {
+        let at = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(1.0, -1.0, z), Vec3::new(0.0, 1.0, z)];
+        let side = |hits: &[(f32, Sign)]| {
+            let prepared =
+                hits.iter().map(|&(z, side)| (RayTriangle::new(Vec3::ZERO, at(z)).expect("seen"), side));
+            side_of_first_hits(Vec3::Z, &prepared.collect::<Vec<_>>())
+        };
+        use Sign::{Negative, Positive};
+        assert_eq!(side(&[]), None);
+        assert_eq!(side(&[(3.0, Negative), (2.0, Positive), (4.0, Negative)]), Some(Positive));
+        assert_eq!(side(&[(2.0, Positive), (2.0, Positive), (3.0, Negative)]), Some(Positive));
+        assert_eq!(side(&[(2.0, Positive), (2.0, Negative), (2.0, Positive)]), None);
+    }
+}

@@ -115,3 +115,65 @@ impl Hierarchy {
         node
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn boxed(low: [f32; 3], high: [f32; 3]) -> Boxed {
+        Boxed { low: low.into(), high: high.into() }
+    }
+
+    #[test]
+    fn boxes_meet_that_overlap_along_all_axes() {
+        let unit = boxed([0.0; 3], [1.0; 3]);
+        for axis in 0..3 {
+            let moved = |by: f32| {
+                let mut place = [0.0; 3];
+                place[axis] = by;
+                boxed(place, place.map(|x| x + 1.0))
+            };
+            assert_eq!(
+                [-1.5, -1.0, 0.5, 1.0, 1.5].map(|by| unit.meets(&moved(by))),
+                [false, true, true, true, false]
+            );
+            assert_eq!(moved(2.0).twice_centre(axis), 5.0);
+        }
+        assert_eq!(
+            boxed([3e38; 3], [f32::MAX; 3]).twice_centre(0),
+            f64::from(3e38_f32) + f64::from(f32::MAX)
+        );
+    }
+
+    #[test]
+    fn no_more_boxes_are_looked_at_than_allowed() {
+        // For each of two a node and both items, of which the last are looked at without asking.
+        let boxes = [boxed([0.0; 3], [1.0; 3]); 2];
+        let search = |most: u64| any(&boxes, most, |_, _| false);
+        assert_eq!([3, 4].map(search), [Search::GivenUp, Search::Nothing]);
+        assert_eq!(any(&boxes, 4, |i, j| (i, j) == (0, 1)), Search::Found);
+        assert_eq!(any(&[], 0, |_, _| true), Search::Nothing);
+    }
+
+    #[test]
+    fn more_than_four_are_divided_along_their_longest_side() {
+        let divided = |boxes: &[Boxed]| {
+            let mut hierarchy = Hierarchy { items: (0..boxes.len() as u32).collect(), nodes: Vec::new() };
+            hierarchy.divide(boxes, 0, boxes.len());
+            hierarchy
+        };
+        let along = |count: u16, [x, width]: [f32; 2], [y, step]: [f32; 2]| -> Vec<Boxed> {
+            // Every other one from the beginning of y, and every other one from its end.
+            let place = |i: u16| y + step * f32::from(if i % 2 == 0 { i } else { count - i });
+            (0..count).map(|i| boxed([x, place(i), 0.0], [x + width, place(i), 0.0])).collect()
+        };
+        assert_eq!(divided(&along(4, [0.0, 1.0], [0.0, 1.0])).nodes.len(), 1);
+        // From 10 on and from 100 on in x, from -101 on, and from 1 to 3, where its ends are in other proportions.
+        for x in [[0.0, 1.0], [99.0, 2.0], [-101.0, 2.0], [1.0, 2.0]] {
+            let boxes = along(8, x, [10.0, 2.0]);
+            let hierarchy = divided(&boxes);
+            assert_eq!(hierarchy.nodes.len(), 3, "{x:?}");
+            assert!(hierarchy.nodes[1].bounds.high.y < hierarchy.nodes[2].bounds.low.y, "{x:?}");
+        }
+    }
+}

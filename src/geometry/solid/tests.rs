@@ -375,3 +375,28 @@ fn the_bound_of_a_volume_is_what_is_derived() {
         assert_eq!(rounded_volume(&moved, origin), (sum, bound));
     }
 }
+
+#[test]
+fn triangles_in_one_plane_cross_unless_their_common_edge_parts_them() {
+    let flat = [[0.0, 0.0], [4.0, 0.0], [1.0, 3.0], [1.0, -3.0], [2.0, 2.0]];
+    for axis in 0..3 {
+        let corner = |i: usize| {
+            let mut p = [flat[i][0], flat[i][1], 7.0];
+            p.rotate_right(axis);
+            Vec3::from(p)
+        };
+        let facet = |t: [usize; 3]| Facet { corners: t.map(corner), numbers: t.map(|i| i as u32) };
+        let meet = |a: [usize; 3], b: [usize; 3]| facet(a).meets_beyond_shared(&facet(b));
+        assert!(!meet([0, 1, 2], [1, 0, 3]) && !meet([1, 2, 0], [0, 1, 3]), "axis {axis}");
+        assert!(meet([0, 1, 2], [1, 0, 4]) && meet([2, 0, 1], [4, 0, 1]), "axis {axis}");
+    }
+}
+
+#[test]
+fn parts_of_more_triangles_than_that_are_not_examined() {
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    let facets = vec![Facet { corners, numbers: [0, 1, 2] }; MOST_TRIANGLES + 1];
+    assert_eq!(Solid::of_closed(&facets).unwrap_err(), Refusal::TooLarge);
+    // As many as that are: these lie on each other.
+    assert_eq!(Solid::of_closed(&facets[1..]).unwrap_err(), Refusal::Crossing);
+}

@@ -102,6 +102,14 @@ pub(super) fn coordinate_error(position: f64, relative: f64) -> f64 {
     (position.abs() + relative.abs()) * f64::EPSILON
 }
 
+/// How many cells a number in [-1, 1] may be off that is a quotient, wrong by `error` and by a rounding.
+///
+/// Cells are 2 / R wide, so that the error counts half as many cells as R times itself and is taken twice over; the
+/// division, adding 1 and the scaling lose 4 roundoffs of at most 2, and this is 16.
+pub(super) fn index_tolerance(error: f64, resolution: u32) -> f64 {
+    f64::from(resolution) * (error + 8.0 * f64::EPSILON)
+}
+
 /// The cell of a number in [-1, 1] that is known within `tolerance` cells, if that leaves no doubt.
 pub(super) fn certain_index(value: f64, tolerance: f64, resolution: u32) -> Option<u32> {
     let cells = f64::from(resolution);
@@ -144,6 +152,7 @@ mod tests {
         );
         assert_eq!([0.24, 0.26].map(|tolerance| certain_index(0.375, tolerance, 4)), [Some(2), None]);
         assert_eq!([0.24, 0.26].map(|tolerance| certain_index(0.125, tolerance, 4)), [Some(2), None]);
+        assert_eq!([0.25, 0.75].map(|fraction| certain_index(0.5 * fraction, 0.25, 4)), [None; 2]);
         // On a border, even if that is all that is known, and beside all cells.
         assert_eq!([-1.0, 0.0, 1.0, -1.125, 1.125].map(|value| certain_index(value, 0.0, 4)), [None; 5]);
         assert_eq!([-0.99, 0.99].map(|value| certain_index(value, 0.0, 4)), [Some(0), Some(3)]);
@@ -160,5 +169,13 @@ mod tests {
         let grid = side_grid(4);
         assert_eq!((grid.origin, grid.step, grid.count), ([-0.75; 2], [0.5; 2], [4; 2]));
         assert!(grid.half.iter().all(|&half| half > 0.25 && half < 0.25 + 1e-12));
+        // The smallest ones too, by more than the rounding of their centres.
+        let smallest = side_grid(4096).half[0] - 1.0 / 4096.0;
+        assert!(smallest > 0.9e-14 && smallest < 1.1e-14, "{smallest:e}");
+    }
+
+    #[test]
+    fn an_index_is_as_uncertain_as_is_derived() {
+        assert_eq!(index_tolerance(3.0 * f64::EPSILON, 4), 44.0 * f64::EPSILON);
     }
 }

@@ -3,13 +3,14 @@
 //! Face m, sign s looks along the axis m towards s; the other two axes follow cyclically. Cell (i, j) of
 //! R x R is the closed set of directions with (2i - R) / R <= x' / z' <= (2i + 2 - R) / R, and so for y'.
 
-use super::cells::{Located, certain_index, coordinate_error, exact_index};
+use super::cells::{Located, certain_index, coordinate_error, exact_index, index_tolerance};
 use crate::geometry::exact_number::ExactNumber;
 use crate::geometry::footprint::Frame;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::position::HomogeneousPoint;
 use crate::geometry::{ExactPosition, Sign};
 use glam::{DVec3, Vec3};
+use std::ops::Neg;
 
 /// A face of the cube: axis 0 to 2, and whether it looks along it or against it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,19 +40,23 @@ impl Face {
         2 * self.axis + usize::from(self.direction == Direction::Against)
     }
 
-    fn sign(self) -> f64 {
-        if self.direction == Direction::Along { 1.0 } else { -1.0 }
+    /// What is along its axis, seen along the face.
+    fn turned<T: Neg<Output = T>>(self, along: T) -> T {
+        match self.direction {
+            Direction::Along => along,
+            Direction::Against => -along,
+        }
     }
 
     /// The axes x', y' and z' of the face.
     pub fn frame(self) -> Frame {
         let unit = |axis: usize| DVec3::from_array([0, 1, 2].map(|i| f64::from(u8::from(i == axis % 3))));
-        Frame::perspective(unit(self.axis + 1), unit(self.axis + 2), unit(self.axis) * self.sign())
+        Frame::perspective(unit(self.axis + 1), unit(self.axis + 2), self.turned(unit(self.axis)))
     }
 
     /// x', y' and z' of a vector.
     pub fn coordinates(self, v: DVec3) -> [f64; 3] {
-        [v[(self.axis + 1) % 3], v[(self.axis + 2) % 3], v[self.axis] * self.sign()]
+        [v[(self.axis + 1) % 3], v[(self.axis + 2) % 3], self.turned(v[self.axis])]
     }
 
     fn exact_coordinates(self, p: &HomogeneousPoint) -> [ExactNumber; 3] {
@@ -88,10 +93,8 @@ pub fn locate<F: Fn() -> ExactPosition>(
     let [ex, ey, ez] = face.coordinates(position).map(f64::abs);
     let error = coordinate_error(ex, x).max(coordinate_error(ey, y));
     let z_error = coordinate_error(ez, z);
-    let cells = f64::from(resolution);
-    // In units of cells, which are half of 2 / R: the quotient is wrong by at most (error + |x' / z'| z_error) / z', and
-    // |x'| <= z', taken twice over; the division, adding 1 and the scaling lose 4 roundoffs of at most 2, and this is 16.
-    let tolerance = cells * (2.0 * (error + z_error) / z + 8.0 * f64::EPSILON);
+    // The quotient is wrong by at most (error + |x' / z'| z_error) / z', and |x'| <= z'; taken twice over once more.
+    let tolerance = index_tolerance(2.0 * (error + z_error) / z, resolution);
     let index = |value: f64| certain_index(value / z, tolerance, resolution);
     if let (Some(column), Some(row)) = (index(x), index(y)) {
         return Some((
@@ -163,5 +166,51 @@ mod tests {
     fn a_point_in_the_light_has_no_cell() {
         let query = PreciseQuery::new(&Vec3::ONE.into(), DVec3::ONE, || ExactPosition::Bare(Vec3::ONE));
         assert_eq!(locate(Vec3::ONE, DVec3::ONE, 8, &query), None);
+    }
+
+    /// Where a point is seen from a light, and whether that took exact arithmetic.
+    fn located(light: Vec3, p: DVec3, resolution: u32) -> (Located, bool) {
+        let query = PreciseQuery::new(&light.into(), p, || ExactPosition::Bare(p.as_vec3()));
+        locate(light, p, resolution, &query).expect("beside the light")
+    }
+
+    #[test]
+    fn directions_inside_of_cells_need_no_exact_arithmetic() {
+        for axis in 0..3 {
+            for sizes in [[1.0, 0.4, 0.3], [1.0, 0.3, 0.4], [1.0, 0.9, 0.3], [1.0, 0.3, 0.9]] {
+                for signs in 0..8 {
+                    let sign = |i: usize| if signs >> i & 1 == 1 { -1.0 } else { 1.0 };
+                    let mut p = [0, 1, 2].map(|i| sign(i) * sizes[i]);
+                    let side = 2 * axis + usize::from(p[0] < 0.0);
+                    p.rotate_right(axis);
+                    let (at, exactly) = located(Vec3::ZERO, DVec3::from_array(p), 4);
+                    assert_eq!((at.side, exactly), (side, false), "{p:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_border_is_as_wide_as_its_uncertainty() {
+        // From the origin coordinates are wrong by 2 of their own, so that x' = 2 and z' = 4 are by 4 and 8 in units of
+        // 2^-52. That is 2 (4 + 8) / 4 + 8 = 14 for the quotient, of cells that are half as wide: 28.
+        let exactly = |parts: f64| {
+            let x = 2.0 + 4.0 * parts * f64::EPSILON;
+            let (at, exactly) = located(Vec3::ZERO, DVec3::new(4.0, 1.3, x), 4096);
+            assert_eq!(at.side, 0);
+            exactly
+        };
+        assert_eq!([-29.0, -27.0, 28.0, 29.0].map(exactly), [false, true, true, false]);
+    }
+
+    #[test]
+    fn a_depth_is_between_its_bounds() {
+        let light = Vec3::new(1.0, 2.0, 3.0);
+        for (p, exactly) in [(DVec3::new(5.0, 2.3, 3.7), false), (DVec3::new(5.0, 2.0, 3.0), true)] {
+            let (at, by_signs) = located(light, p, 4);
+            // The position is 5 and 4 away from the light.
+            let error = 9.0 * f64::EPSILON;
+            assert_eq!((by_signs, at.z_low, at.z_high), (exactly, 4.0 - error, 4.0 + error));
+        }
     }
 }

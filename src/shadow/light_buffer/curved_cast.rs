@@ -77,3 +77,46 @@ pub(super) fn join(candidates: &mut Vec<Candidate>) {
         same
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    /// The faces of a box.
+    fn box_between(low: DVec3, high: DVec3) -> hull::Hull {
+        let ends = [low, high];
+        let corner = |i: usize| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z);
+        let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+        let halves = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        halves.map(|triangle: [usize; 3]| triangle.map(corner)).collect()
+    }
+
+    #[test]
+    fn a_light_is_inside_of_a_hull_or_beside_it() {
+        let middle = DVec3::new(4.0, 8.0, -2.0);
+        let hull = box_between(middle - 1.0, middle + 1.0);
+        let is_around = |p: DVec3| is_around(&hull, LightPosition::At(p.as_vec3()));
+        for i in 0..27 {
+            let side = DVec3::from_array([i % 3, i / 3 % 3, i / 9].map(|k| f64::from(k) - 1.0));
+            assert!(is_around(middle + 0.99 * side), "{side}");
+            assert!(side == DVec3::ZERO || !is_around(middle + 1.01 * side), "{side}");
+            // On the hull floats cannot tell.
+            assert!(is_around(middle + side), "{side}");
+        }
+        assert!(!is_around(DVec3::ZERO) && !is_around(middle * 3.0) && !is_around(-middle));
+        assert!(!super::is_around(&hull, LightPosition::Towards(Vec3::X)));
+    }
+
+    #[test]
+    fn a_light_is_beside_a_hull_from_a_billionth_on() {
+        // A face of edges 2 and sqrt 8, seen from its middle: the volume is 4 times the distance, and a billionth of
+        // 2 sqrt 8 (sqrt 2 + 1), for the way from a corner and half the size, is 1.366e-8.
+        let middle = DVec3::new(4.0, 8.0, -2.0);
+        let is_around = |distance: f64| {
+            let hull = box_between(middle - 1.0, middle + 1.0 - DVec3::X * distance);
+            is_around(&hull, LightPosition::At((middle + DVec3::X).as_vec3()))
+        };
+        assert_eq!([3.35e-9, 3.48e-9].map(is_around), [true, false]);
+    }
+}

@@ -187,4 +187,15 @@ mod tests {
         assert_eq!(found, [vec![], vec![1], vec![2, 3], vec![], vec![], vec![4]]);
         assert!(CellGroups::default().of(3).is_empty());
     }
+
+    #[test]
+    fn groups_of_cells_are_counted_in_bytes() {
+        let mut all = CellGroups::default();
+        assert_eq!(all.bytes(), 0);
+        let group = Group { object: 0, first: 0, end: 7 };
+        all.push_cell([group; 2]);
+        all.push_cell([group; 3]);
+        // Three starts, and five groups of three numbers.
+        assert_eq!(all.bytes(), 3 * 4 + 5 * 12);
+    }
 }

@@ -7,13 +7,14 @@
 //! The sheet [-E, E] x [-E, E], with an E for each axis, holds everything that is cast; cell (i, j) of R x R
 //! is the closed set with (2i - R) / R <= x' / E <= (2i + 2 - R) / R, and so for y'.
 
-use super::cells::{Located, certain_index, coordinate_error, exact_index};
+use super::cells::{Located, certain_index, coordinate_error, exact_index, index_tolerance};
 use crate::geometry::exact_number::ExactNumber;
 use crate::geometry::footprint::Frame;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::position::HomogeneousPoint;
 use crate::geometry::{ExactPosition, Sign};
 use glam::{DVec3, Vec3};
+use std::ops::Neg;
 
 /// The grid of one light.
 #[derive(Debug, Clone, Copy)]
@@ -62,9 +63,9 @@ impl Sheet {
             + rounding
     }
 
-    /// 1 if depth grows along its axis, -1 if against it.
-    fn away(&self) -> f64 {
-        if self.direction[self.axes[2]] > 0.0 { -1.0 } else { 1.0 }
+    /// What is along the axis of depth, so that it grows away from the light.
+    fn turned<T: Neg<Output = T>>(&self, along: T) -> T {
+        if self.direction[self.axes[2]] > 0.0 { -along } else { along }
     }
 
     /// E of x' or y'.
@@ -82,7 +83,7 @@ impl Sheet {
         let across = [0, 1].map(|i| (unit(i) - unit(2) * self.slope(i)) / self.extent(i));
         Frame::parallel(
             [unit(0) * self.extent(0), unit(1) * self.extent(1), z],
-            [across[0], across[1], unit(2) * self.away()],
+            [across[0], across[1], self.turned(unit(2))],
         )
     }
 
@@ -94,7 +95,7 @@ impl Sheet {
         query: &PreciseQuery<F>,
     ) -> Option<(Located, bool)> {
         let p = position - self.origin.as_dvec3();
-        let depth = p[self.axes[2]] * self.away();
+        let depth = self.turned(p[self.axes[2]]);
         let depth_error = coordinate_error(position[self.axes[2]], depth);
         let located = |[column, row]: [u32; 2]| Located {
             side: 0,
@@ -107,12 +108,10 @@ impl Sheet {
         for (i, cell) in cells.iter_mut().enumerate() {
             let (value, error, extent) =
                 (self.across(i, p), self.across_error(i, position, p), self.extent(i));
-            if value.abs() > extent * (1.0 + 1e-12) + 2.0 * error {
+            if is_beside(value, error, extent) {
                 return None;
             }
-            // As in the cube: the division, adding 1 and the scaling lose 4 roundoffs of at most 2, and this is 16.
-            let tolerance = f64::from(resolution) * (error / extent + 8.0 * f64::EPSILON);
-            *cell = certain_index(value / extent, tolerance, resolution);
+            *cell = certain_index(value / extent, index_tolerance(error / extent, resolution), resolution);
         }
         match cells {
             [Some(column), Some(row)] => Some((located([column, row]), false)),
@@ -136,6 +135,11 @@ impl Sheet {
         };
         Some([index(0)?, index(1)?])
     }
+}
+
+/// Whether a number that is known within an error is certainly beside the sheet.
+fn is_beside(value: f64, error: f64, extent: f64) -> bool {
+    value.abs() > extent * (1.0 + 1e-12) + 2.0 * error
 }
 
 #[cfg(test)]
@@ -186,5 +190,73 @@ mod tests {
         assert_eq!(cell(&sheet, Vec3::new(0.0, 1.0, 0.0), 2), Some([1, 1]));
         assert_eq!(cell(&sheet, Vec3::new(-tiny, 1.0, 0.0), 2), Some([0, 1]));
         assert_eq!(cell(&sheet, Vec3::new(tiny, -tiny, 0.0), 2), Some([1, 0]));
+    }
+
+    #[test]
+    fn places_across_the_rays_are_as_uncertain_as_is_derived() {
+        let sheet = Sheet::new(Vec3::ZERO, Vec3::new(1.0, 0.0, 2.0), std::iter::once(Vec3::ONE));
+        assert_eq!((sheet.axes, sheet.slope(0), sheet.slope(1)), ([0, 1, 2], 0.5, 0.0));
+        let (position, p) = (DVec3::new(3.0, -4.0, 5.0), DVec3::new(2.0, 6.0, -7.0));
+        // Of x', of depth times the slope, and four of both.
+        let expected = (3.0 + 2.0) + 0.5 * (5.0 + 7.0) + 4.0 * (2.0 + 0.5 * 7.0);
+        assert_eq!(sheet.across_error(0, position, p), expected * f64::EPSILON);
+        assert_eq!(sheet.across_error(1, position, p), (10.0 + 4.0 * 6.0) * f64::EPSILON);
+    }
+
+    #[test]
+    fn what_is_beside_the_sheet_is_so_by_more_than_its_error() {
+        let border = 8.0 * (1.0 + 1e-12) + 2.0 * 0.25;
+        for side in [1.0, -1.0] {
+            assert!(!is_beside(side * border, 0.25, 8.0) && is_beside(side * border.next_up(), 0.25, 8.0));
+        }
+    }
+
+    #[test]
+    fn places_inside_of_cells_and_far_from_all_of_them_need_no_exact_arithmetic() {
+        for direction in [Vec3::new(1.0, 0.0, 2.0), Vec3::new(-3.0, 1.0, 1.0), Vec3::new(0.5, -4.0, 1.0)] {
+            let sheet = Sheet::new(Vec3::ZERO, direction, [Vec3::splat(8.0), Vec3::splat(-8.0)].into_iter());
+            let space =
+                LightSpace::new(LightPosition::Towards(direction), (Vec3::splat(-8.0), Vec3::splat(8.0)));
+            let located = |p: DVec3| {
+                let query = PreciseQuery::new(&space, p, || -> ExactPosition { panic!("not needed") });
+                sheet.locate(p, 5, &query)
+            };
+            let (at, exactly) = located(DVec3::new(0.125, 0.25, -0.375)).expect("in the middle");
+            assert_eq!((at.column, at.row, exactly), (2, 2, false));
+            let depth = -f64::from(direction.abs().max_element());
+            let along = direction.as_dvec3() / depth;
+            // Depth grows along the rays by one for every one along their axis.
+            let (further, _) = located(DVec3::new(0.125, 0.25, -0.375) + along).expect("in the middle");
+            assert!((further.z_low - at.z_low - 1.0).abs() < 1e-12 && at.z_low < at.z_high);
+            assert!(located(along.any_orthogonal_vector() * 1e3).is_none());
+        }
+    }
+
+    #[test]
+    fn exact_signs_tell_what_is_beside_the_sheet() {
+        let sheet = sheet();
+        let space =
+            LightSpace::new(LightPosition::Towards(sheet.direction), (Vec3::splat(-8.0), Vec3::splat(8.0)));
+        let cell = |p: Vec3| {
+            let query = PreciseQuery::new(&space, p.as_dvec3(), || ExactPosition::Bare(p));
+            sheet.exact_cell(query.exact(), 4)
+        };
+        assert_eq!(cell(Vec3::new(8.0, -8.0, 1.0)), Some([3, 0]));
+        assert_eq!([Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|side| cell(side * 8.1)), [None; 4]);
+    }
+
+    #[test]
+    fn a_border_is_as_wide_as_its_uncertainty_in_units_of_the_sheet() {
+        let direction = Vec3::new(1.0, 0.0, 2.0);
+        let sheet = Sheet::new(Vec3::ZERO, direction, [Vec3::splat(8.0), Vec3::splat(-8.0)].into_iter());
+        let space = LightSpace::new(LightPosition::Towards(direction), (Vec3::splat(-8.0), Vec3::splat(8.0)));
+        // At (4, 1, 8) x' is 0, wrong by 8 + 8 + 32 in units of 2^-52. E is 4: in cells of half of it that is 12, and 8
+        // for rounding, so that the border is as wide as 160 of them.
+        let exactly = |parts: f64| {
+            let p = DVec3::new(4.0, 1.0, 8.0 - 2.0 * parts * f64::EPSILON);
+            let query = PreciseQuery::new(&space, p, || ExactPosition::Bare(p.as_vec3()));
+            sheet.locate(p, 4, &query).expect("in the middle").1
+        };
+        assert_eq!([-170.0, -150.0, 150.0, 170.0].map(exactly), [false, true, true, false]);
     }
 }

@@ -9,6 +9,8 @@ use dashu_int::IBig;
 use glam::Vec3;
 use proptest::prelude::*;
 
+mod contents;
+
 /// Coordinates are integers, so that small integers decide everything exactly.
 fn scene(triangles: &[[[i8; 3]; 3]]) -> Scene {
     let mut builder = SceneBuilder::new("test");

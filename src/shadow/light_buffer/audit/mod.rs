@@ -15,14 +15,14 @@ pub struct Audit {
     pub cells: u64,
     /// Records that were checked.
     pub records: u64,
-    /// Directions to corners and centres of triangles whose cell was looked up.
+    /// Directions to corners of triangles whose cell was looked up.
     pub directions: u64,
 }
 
 impl LightBuffer<'_> {
     /// Checks the invariants of the structure: headers in order, records ascending and of existing casters,
-    /// nothing behind a full occlusion, and every triangle present in the cells of its corners and centre
-    /// unless these cells may leave it out.
+    /// nothing behind a full occlusion, and every triangle present in the cells of its corners unless these cells
+    /// may leave it out.
     ///
     /// # Errors
     /// The first violation, in words.
@@ -36,11 +36,8 @@ impl LightBuffer<'_> {
             if self.scene.is_curved(primitive) {
                 continue;
             }
-            let corners = self.scene.corners(primitive);
-            // Divided first, since a sum of three may overflow.
-            let centre = corners[0] / 3.0 + corners[1] / 3.0 + corners[2] / 3.0;
-            for point in corners.into_iter().chain([centre]) {
-                self.validate_presence(caster, corners, point)?;
+            for corner in self.scene.corners(primitive) {
+                self.validate_presence(caster, corner)?;
                 audit.directions += 1;
             }
         }
@@ -101,11 +98,9 @@ impl LightBuffer<'_> {
         if ascend(&outside) { Ok(()) } else { Err("records out of order".into()) }
     }
 
-    /// A point on a triangle's rounded surface lies in a cell that lists it, cuts it off behind a full
-    /// occlusion, or has no list because the triangle is alone there.
-    fn validate_presence(&self, caster: u32, corners: [Vec3; 3], point: Vec3) -> Result<(), String> {
-        // The centre is rounded and may lie beside a needle; only cells that the triangle meets count.
-        let is_corner = corners.contains(&point);
+    /// A corner of a triangle lies in a cell that lists it, cuts it off behind a full occlusion, or has no list
+    /// because the triangle is alone there.
+    fn validate_presence(&self, caster: u32, point: Vec3) -> Result<(), String> {
         let space = &self.casters.space;
         let query = PreciseQuery::new(space, point.as_dvec3(), || ExactPosition::Bare(point));
         let resolution = self.statistics.resolution;
@@ -115,16 +110,16 @@ impl LightBuffer<'_> {
         let missing = || format!("caster {caster}: missing at {point} in cell {} {}", at.column, at.row);
         let lists = self.sides[at.side].as_ref();
         let Some((lists, cell)) = lists.and_then(|l| Some((l, l.cell(at.column, at.row)?))) else {
-            return if is_corner { Err(missing()) } else { Ok(()) };
+            return Err(missing());
         };
         let (full_occlusion, list) = lists.list(cell);
         let listed = list.iter().find(|r| r.caster == caster);
         let excused = list.is_empty() || full_occlusion < f32::INFINITY;
         match listed {
-            Some(record) if f64::from(record.near) > at.z_high && is_corner => {
+            Some(record) if f64::from(record.near) > at.z_high => {
                 Err(format!("caster {caster}: depth {} behind its own corner {point}", record.near))
             }
-            None if is_corner && !excused => Err(missing()),
+            None if !excused => Err(missing()),
             _ => Ok(()),
         }
     }

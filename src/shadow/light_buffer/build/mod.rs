@@ -212,6 +212,12 @@ fn project(
         .collect()
 }
 
+/// The cells of the box around a footprint.
+fn cells_around(footprint: &Footprint) -> u64 {
+    let ([left, right], [top, bottom]) = (footprint.columns(), footprint.rows());
+    u64::from(right - left + 1) * u64::from(bottom - top + 1)
+}
+
 /// Checks what the lists of one side can need before they are made: an entry and its place in the order for
 /// every cell of every cast.
 fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, input: &BuildInput) -> Result<()> {
@@ -223,12 +229,14 @@ fn check_memory(casts: &[Cast], grid: &Grid, resolution: u32, input: &BuildInput
         VolumeThreshold::MoreThan(_) => ENTRY_BYTES + size_of::<Group>() as u64,
     };
     let what = || format!("the lists of a light buffer of {resolution} cells along an edge");
-    let around = |cast: &Cast| {
-        let ([left, right], [top, bottom]) = (cast.footprint.columns(), cast.footprint.rows());
-        u64::from(right - left + 1) * u64::from(bottom - top + 1)
-    };
     // The boxes around the footprints are quick to count; rows are looked at only if those are too many.
-    if limit.check(what(), entry_bytes.saturating_mul(casts.iter().map(around).sum())).is_ok() {
+    if limit
+        .check(
+            what(),
+            entry_bytes.saturating_mul(casts.iter().map(|cast| cells_around(&cast.footprint)).sum()),
+        )
+        .is_ok()
+    {
         return Ok(());
     }
     let row_by_row = |cast: &Cast| -> u64 {
@@ -269,7 +277,7 @@ fn fill_band(
     rules: &Rules<'_>,
 ) -> Band {
     let width = window.width();
-    let cells = width * (rows[1] - rows[0] + 1) as usize;
+    let cells = width * Window { rows, ..*window }.height();
     let cell_of =
         |column: u32, row: u32| (row - rows[0]) as usize * width + (column - window.columns[0]) as usize;
     let entries = touched_cells(casts, grid, window, rows, cell_of);

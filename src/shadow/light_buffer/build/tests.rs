@@ -80,8 +80,9 @@ fn a_cell_is_counted_for_what_became_of_it() {
     found.add_cell(1, &[], finished(f32::INFINITY, 0, Dropped::List));
     found.add_cell(1, &[candidate], finished(f32::INFINITY, 0, Dropped::FullOcclusion));
     found.add_cell(0, &[], finished(f32::INFINITY, 0, Dropped::Nothing));
+    found.add_cell(0, &[], finished(f32::INFINITY, 0, Dropped::Nothing));
     let expected = Statistics {
-        cells: 4,
+        cells: 5,
         touched_cells: 3,
         non_empty: 2,
         records: 3,
@@ -93,4 +94,57 @@ fn a_cell_is_counted_for_what_became_of_it() {
         ..Statistics::default()
     };
     assert_eq!(found, expected);
+}
+
+/// A triangle before a light in the origin, cast on the face that looks along z.
+fn cast(corners: [DVec3; 3], cells: u32, most: Cover, stands_for: StandsFor) -> (Cast, Grid) {
+    let (grid, frame) = (side_grid(cells), Frame::perspective(DVec3::X, DVec3::Y, DVec3::Z));
+    let planes = OrientedPlanes::of_hull(DVec3::ZERO, corners).unwrap();
+    let footprint = Footprint::new(&grid, &frame, &planes).unwrap();
+    (Cast { role: Role::Blocks(0), most, stands_for, footprint }, grid)
+}
+
+fn wide() -> [DVec3; 3] {
+    [(-9.0, -9.0), (9.0, -9.0), (0.0, 9.0)].map(|(x, y)| DVec3::new(x, y, 2.0))
+}
+
+#[test]
+fn a_candidate_is_what_its_cast_stands_for() {
+    let of = |most: Cover, stands_for: StandsFor| {
+        let (cast, grid) = cast(wide(), 5, most, stands_for);
+        candidate(&cast, &grid, 2, 2)
+    };
+    let itself = of(Cover::Whole, StandsFor::Itself);
+    assert!(itself.near < 2.0 && itself.near > 1.999 && itself.far > 2.0 && itself.far < 2.001);
+    assert_eq!((itself.cover, itself.self_shadow), (Cover::Whole, SelfShadow::Never));
+    assert_eq!(of(Cover::Part, StandsFor::Itself), Candidate { cover: Cover::Part, ..itself });
+    let curved = Candidate { self_shadow: SelfShadow::Perhaps, ..itself };
+    assert_eq!(of(Cover::Whole, StandsFor::Hull), curved);
+    assert_eq!(of(Cover::Whole, StandsFor::HullAroundLight), Candidate { near: 0.0, ..curved });
+    let inner = of(Cover::Whole, StandsFor::Inner { margin: 0.5 });
+    assert_eq!(inner, Candidate { far: inner.far, ..curved });
+    assert!((inner.far - itself.far - 0.5).abs() < 1e-6, "{}", inner.far);
+}
+
+#[test]
+fn lists_are_refused_from_the_first_byte_on_that_they_may_need_too_much() {
+    // In the middle three of eight columns in one row, and the one between them in the next.
+    let corners = [(-0.45, -0.2), (0.2, -0.2), (-0.12, 0.1)].map(|(x, y)| DVec3::new(x, y, 1.0));
+    let (cast, grid) = cast(corners, 8, Cover::Whole, StandsFor::Itself);
+    assert_eq!((cast.footprint.columns(), cast.footprint.rows()), ([2, 4], [3, 4]));
+    assert_eq!(cells_around(&cast.footprint), 6);
+    let rows = [3, 4].map(|row| cast.footprint.span(&grid, row).map(|[left, right]| right - left + 1));
+    assert_eq!(rows, [Some(3), Some(1)]);
+    let scene = crate::scene::SceneBuilder::new("nothing").finish();
+    let index = crate::shadow::SceneIndex::new(&scene);
+    let casts = [cast];
+    let is_refused = |bytes: u64, bounding_volumes: VolumeThreshold| {
+        let memory = crate::memory::MemoryLimit::bytes(bytes);
+        let input = BuildInput { memory, bounding_volumes, ..BuildInput::new(&scene, &index, Vec3::ZERO) };
+        check_memory(&casts, &grid, 8, &input).is_err()
+    };
+    // Two numbers of a cell and a cast, their place in the order, and a record of eight bytes: for four cells.
+    assert_eq!([79, 80].map(|bytes| is_refused(bytes, VolumeThreshold::Off)), [true, false]);
+    // With a group of three numbers for each.
+    assert_eq!([127, 128].map(|bytes| is_refused(bytes, VolumeThreshold::MoreThan(1))), [true, false]);
 }
