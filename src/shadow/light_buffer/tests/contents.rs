@@ -327,7 +327,7 @@ fn the_corners_of_what_is_cast_are_its_own_or_those_of_a_box_around_it() {
     let sphere = Shape::sphere(Vec3::new(3.0, -4.0, 5.0), 2.0);
     let scene = of_objects(vec![triangle(across(3.0, 1.0)), with_curved(sphere)]);
     let index = SceneIndex::new(&scene);
-    let casters = Casters::some(&scene, &index, Vec3::ZERO.into(), &index.casting);
+    let casters = Casters::some(&scene, &index, Vec3::ZERO.into(), index.casting(&scene));
     let found: Vec<Vec3> = corners(&scene, &casters).collect();
     assert_eq!(found[..3], across(3.0, 1.0));
     let (low, high) = sphere.bounds().unwrap();
