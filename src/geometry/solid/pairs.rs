@@ -164,7 +164,7 @@ mod tests {
         };
         let along = |count: u16, [x, width]: [f32; 2], [y, step]: [f32; 2]| -> Vec<Boxed> {
             // Every other one from the beginning of y, and every other one from its end.
-            let place = |i: u16| y + step * f32::from(if i % 2 == 0 { i } else { count - i });
+            let place = |i: u16| y + step * f32::from(if i.is_multiple_of(2) { i } else { count - i });
             (0..count).map(|i| boxed([x, place(i), 0.0], [x + width, place(i), 0.0])).collect()
         };
         assert_eq!(divided(&along(4, [0.0, 1.0], [0.0, 1.0])).nodes.len(), 1);
