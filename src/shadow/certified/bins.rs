@@ -11,7 +11,7 @@ pub(super) struct Budget {
 
 impl Budget {
     /// Takes are of so many bytes, so that they are few.
-    pub const PORTION: usize = 1 << 20;
+    pub const PORTION: usize = 1 << 14;
 
     pub fn new(bytes: usize) -> Budget {
         Budget { left: AtomicUsize::new(bytes) }
@@ -19,14 +19,10 @@ impl Budget {
 
     /// Takes portions until there are at least `needed` bytes; whether there were.
     pub fn grant(&self, granted: &mut usize, needed: usize) -> bool {
-        while *granted < needed {
-            let take = |left: usize| left.checked_sub(Budget::PORTION);
-            if self.left.fetch_update(Relaxed, Relaxed, take).is_err() {
-                return false;
-            }
-            *granted += Budget::PORTION;
-        }
-        true
+        let more = needed.saturating_sub(*granted).next_multiple_of(Budget::PORTION);
+        let is_there = self.left.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(more)).is_ok();
+        *granted += if is_there { more } else { 0 };
+        is_there
     }
 }
 
