@@ -171,6 +171,51 @@ plant own-curved-surface-not-tested $buffer/walk.rs \
     'untested: base.filter(|&base| !self.scene.is_curved(base))' 'untested: base' \
     all_exact_testers_agree_on_curved_and_transparent_surfaces
 
+cells=src/shadow/certified
+
+plant surface-beyond-the-horizon $cells/certificate.rs \
+    'flags == Item::COVERS && only.far > horizon' 'flags == Item::COVERS' \
+    irregular_edges_uncertain_centres_and_what_is_withheld_void_a_certificate
+
+plant covered-twice-and-lit $cells/certificate.rs \
+    'first.is_certain && first.covers == 1 && depth' 'first.is_certain && first.covers >= 1 && depth' \
+    intervals_that_touch_are_one_surface
+
+plant surfaces-that-touch-are-two $cells/certificate.rs \
+    'let overlaps = (near >= end) & (near <= from);' 'let overlaps = (near > end) & (near <= from) | (near == nearest);' \
+    intervals_that_touch_are_one_surface
+
+plant irregular-edges-ignored $cells/certificate.rs \
+    'flags & (Item::IRREGULAR | Item::MAY_COVER) == 0' 'flags & Item::MAY_COVER == 0' \
+    irregular_edges_uncertain_centres_and_what_is_withheld_void_a_certificate \
+    every_exact_tester_is_right_in_every_case_at_every_resolution \
+    all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant third-owner-forgotten $cells/edges.rs \
+    'mark(second as usize - 1);' 'let _ = second;' \
+    a_third_and_a_fourth_owner_make_it_irregular_for_all
+
+plant any-two-owners-are-regular $cells/edges.rs \
+    '0 if (one == other) == (a != c) =>' '0 if one == other || a != c || a == c =>' \
+    an_edge_of_two_is_regular_if_they_lie_on_different_sides_of_it \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant link-lost $cells/bins.rs \
+    'let mut link = Link { next: head.link, ..Link::default() };' 'let mut link = Link { next: 0, ..Link::default() };' \
+    long_lists_are_whole
+
+plant receiver-in-the-cell-of-its-rounding $cells/receivers.rs \
+    '& (du.abs() > delta)' '& (du.abs() > -delta)' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant walk-without-slack $cells/walk.rs \
+    'let d = 1.25 * delta;' 'let d = -1.25 * delta;' \
+    all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant query-on-the-wrong-side-of-a-seam $cells/open.rs \
+    'let is_known = (a.abs() <= depth)' 'let is_known = (a.abs() <= 4.0 * depth.abs())' \
+    queries_beyond_the_edge_of_their_side_are_lost
+
 [ "$planted" -gt 0 ] || { echo "no planted bug is called $only"; exit 2; }
 rm -rf "$copy"
 echo "$((planted - survived)) passed, $survived failed"

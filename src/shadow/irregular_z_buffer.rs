@@ -7,10 +7,9 @@
 //! Under a light infinitely far away that light buffer has everything.
 
 use super::certified::{Certified, automatic_resolution};
-use super::light_buffer::LightBuffer;
+use super::rest::Rest;
 use super::{
-    Basis, Batching, BuildInput, Counters, Crossings, Lights, Receivers, Resolution, SceneIndex,
-    ShadowTester, TesterEntry,
+    Basis, Batching, BuildInput, Counters, Crossings, Lights, Resolution, ShadowTester, TesterEntry,
 };
 use crate::error::Result;
 use crate::geometry::LightPosition;
@@ -32,8 +31,7 @@ pub struct IrregularZBuffer<'a> {
     /// Triangles that are whole, under a light at a point.
     whole: Option<Certified<'a>>,
     resolution: Resolution,
-    /// Everything else that is cast.
-    rest: Option<LightBuffer<'a>>,
+    rest: Rest<'a>,
     /// The most memory that a view has needed so far.
     bytes: AtomicU64,
 }
@@ -44,16 +42,14 @@ impl<'a> IrregularZBuffer<'a> {
     /// # Errors
     /// Those of a light buffer, where one is needed.
     pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> Result<IrregularZBuffer<'a>> {
-        let (scene, index) = (input.scene, input.index);
-        let (whole, rest) = match input.light {
-            LightPosition::Towards(_) => (None, Some(index)),
+        let whole = match input.light {
+            LightPosition::Towards(_) => None,
             LightPosition::At(light) => {
-                let whole = Certified { scene, light, set: instruction_set, memory: input.memory };
-                (Some(whole), index.beside_whole_triangles(scene))
+                Some(Certified { scene: input.scene, light, set: instruction_set, memory: input.memory })
             }
         };
-        let rest = rest.map(|index| LightBuffer::new(&rest_of(input, index))).transpose()?;
-        Ok(IrregularZBuffer { whole, resolution: input.resolution, rest, bytes: AtomicU64::new(0) })
+        let (resolution, rest) = (input.resolution, Rest::new(input)?);
+        Ok(IrregularZBuffer { whole, resolution, rest, bytes: AtomicU64::new(0) })
     }
 
     fn occluded_by_whole(
@@ -69,15 +65,6 @@ impl<'a> IrregularZBuffer<'a> {
         let work = whole.occluded(points, resolution, answers)?;
         self.bytes.fetch_max(work.bytes, Relaxed);
         Ok(work.counters)
-    }
-}
-
-/// The same input over another index. Receivers on what is not in it are in no list, so that its lists must hold for
-/// points anywhere.
-fn rest_of<'a>(input: &BuildInput<'a>, index: &'a SceneIndex) -> BuildInput<'a> {
-    match std::ptr::eq(index, input.index) {
-        true => *input,
-        false => BuildInput { index, receivers: Receivers::Anywhere, ..*input },
     }
 }
 
@@ -97,30 +84,15 @@ impl ShadowTester for IrregularZBuffer<'_> {
                 Counters::default()
             }
         };
-        let Some(rest) = &self.rest else { return Ok(counters) };
-        // Who is dark already need not ask.
-        let open: Vec<usize> = (0..points.len()).filter(|&i| !answers[i]).collect();
-        let asked: Vec<SurfacePoint> = open.iter().map(|&i| points[i]).collect();
-        let mut found = vec![false; asked.len()];
-        counters += rest.occluded(&asked, &mut found)?;
-        for (i, occluded) in open.into_iter().zip(found) {
-            answers[i] = occluded;
-        }
+        counters += self.rest.add_occluded(points, answers)?;
         Ok(counters)
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {
-        match &self.rest {
-            Some(rest) => rest.crossed(points, crossings),
-            None => {
-                points.iter().for_each(|_| crossings.push([]));
-                Ok(Counters::default())
-            }
-        }
+        self.rest.crossed(points, crossings)
     }
 
     fn bytes(&self) -> usize {
-        let rest = self.rest.as_ref().map_or(0, |rest| rest.bytes());
-        rest + self.bytes.load(Relaxed) as usize
+        self.rest.bytes() + self.bytes.load(Relaxed) as usize
     }
 }

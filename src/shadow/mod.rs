@@ -4,6 +4,7 @@
 //! segment between them. Surfaces that face away from the light are dark before any tester is asked
 //! ([`facing`]).
 
+pub mod auto;
 pub mod bounding_volumes;
 pub mod brute_force;
 pub mod certified;
@@ -14,10 +15,12 @@ pub mod embree;
 pub mod exact;
 pub mod facing;
 pub mod irregular_z_buffer;
+pub mod kept_light_buffer;
 pub mod light_buffer;
 mod precise;
 mod queries;
 mod registry;
+mod rest;
 mod scene_index;
 pub mod shadow_buffer;
 mod solids;

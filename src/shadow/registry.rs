@@ -2,8 +2,8 @@
 
 use super::shadow_buffer::{BufferFile, ShadowBufferSettings};
 use super::{
-    Culling, ObjectCoherence, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold,
-    bounding_volumes, brute_force, exact, irregular_z_buffer, light_buffer, shadow_buffer,
+    Culling, ObjectCoherence, Receivers, Resolution, SceneIndex, ShadowTester, VolumeThreshold, auto,
+    bounding_volumes, brute_force, exact, irregular_z_buffer, kept_light_buffer, shadow_buffer,
 };
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
@@ -126,7 +126,7 @@ pub const REGISTRY: &[TesterEntry] = &[
     exact::ENTRY,
     brute_force::ENTRY,
     bounding_volumes::ENTRY,
-    light_buffer::ENTRY,
+    kept_light_buffer::ENTRY,
     irregular_z_buffer::ENTRY,
     shadow_buffer::ENTRY,
     #[cfg(feature = "embree")]
@@ -141,14 +141,14 @@ const MODE_NAMES: Option<&str> = Some(crate::embree::EmbreeMode::GRAMMAR);
 #[cfg(not(feature = "embree"))]
 const MODE_NAMES: Option<&str> = None;
 
-/// Every tester that has a name: those of [`REGISTRY`], and after them one for each
+/// Every tester that has a name: those of [`REGISTRY`], after them `auto`, which chooses among them, and then one for each
 /// [`EmbreeMode`](crate::embree::EmbreeMode).
 pub fn testers() -> impl Iterator<Item = &'static TesterEntry> {
     #[cfg(feature = "embree")]
     let modes = super::embree::MODES.iter();
     #[cfg(not(feature = "embree"))]
     let modes = std::iter::empty();
-    REGISTRY.iter().chain(modes)
+    REGISTRY.iter().chain([&auto::ENTRY]).chain(modes)
 }
 
 /// The tester of a name.
@@ -157,7 +157,8 @@ pub fn testers() -> impl Iterator<Item = &'static TesterEntry> {
 /// [`Error::Usage`] that lists the names there are.
 pub fn find(name: &str) -> Result<&'static TesterEntry> {
     testers().find(|entry| entry.name == name).ok_or_else(|| {
-        let names: Vec<_> = REGISTRY.iter().map(|entry| entry.name).chain(MODE_NAMES).collect();
+        let names: Vec<_> =
+            REGISTRY.iter().chain([&auto::ENTRY]).map(|entry| entry.name).chain(MODE_NAMES).collect();
         let missing = if cfg!(feature = "embree") { "" } else { " (built without the feature `embree`)" };
         Error::Usage(format!("no shadow tester `{name}`{missing}; there are: {}", names.join(", ")))
     })

@@ -1,11 +1,12 @@
 //! Random small scenes of curved and transparent surfaces and mirrors: every answer, and what lies in the way.
 
 use crate::cases::{Case, lamp, sun};
+use crate::exact_testers;
 use crate::runner::{Asked, Setting, ask_all};
 use glam::Vec3;
 use lightbuffer::geometry::curved::{Cone, Disc, Ellipsoid, InfinitePlane, Quadric, Shape};
 use lightbuffer::scene::{Camera, ImageSize, Material, ObjectInput, SceneBuilder, Shadowing, Transmission};
-use lightbuffer::shadow::{Basis, Resolution, VolumeThreshold, testers};
+use lightbuffer::shadow::{Resolution, VolumeThreshold, testers};
 use proptest::prelude::*;
 
 fn coordinate() -> impl Strategy<Value = f32> {
@@ -102,7 +103,7 @@ proptest! {
     ) {
         let asked = Asked::with_trees(&case, 3);
         let truth = asked.plain_truth_all();
-        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in exact_testers() {
             let setting = Setting { threads: 1, ..Setting::of(Resolution::Cells(resolution)) };
             let answers = ask_all(entry, &asked, setting);
             prop_assert_eq!(&answers, &truth, "{} with {:?}", entry.name, setting);
@@ -146,7 +147,7 @@ fn panes_that_share_edges_are_crossed_once() {
     let asked = Asked::with_trees(&case, 1);
     let truth = asked.plain_truth_all();
     assert!(truth.iter().all(|(occluded, crossed)| !occluded && crossed.len() == layers));
-    for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
+    for entry in exact_testers() {
         assert_eq!(ask_all(entry, &asked, Setting::of(Resolution::Cells(33))), truth, "{}", entry.name);
     }
 }

@@ -8,10 +8,25 @@ mod random;
 mod runner;
 mod shadow_buffer;
 
+use lightbuffer::shadow::light_buffer::LightBuffer;
 use lightbuffer::shadow::{
-    Basis, Culling, ObjectCoherence, Resolution, TesterEntry, VolumeThreshold, find, testers,
+    Basis, Culling, Lights, ObjectCoherence, Resolution, TesterEntry, VolumeThreshold, find, testers,
 };
 use runner::{Asked, Setting, ask};
+
+/// The light buffer as in 1986, whatever is asked for; `light-buffer` is that one for some lights and options alone.
+static OF_1986: TesterEntry = TesterEntry {
+    name: "light-buffer of 1986",
+    basis: Basis::Exact,
+    lights: Lights::All,
+    build: &|input| Ok(Box::new(LightBuffer::new(input)?)),
+    expected_tests: |_, queries| 10.0 * queries,
+};
+
+/// Every tester that claims to be exact.
+fn exact_testers() -> impl Iterator<Item = &'static TesterEntry> {
+    testers().filter(|entry| entry.basis != Basis::Measured).chain([&OF_1986])
+}
 
 /// Resolutions from a single cell a face to many more than there are triangles.
 const RESOLUTIONS: [u32; 4] = [1, 7, 64, 1000];
@@ -50,7 +65,7 @@ fn every_exact_tester_is_right_in_every_case_at_every_resolution() {
             "{}: nothing to tell apart",
             case.name
         );
-        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in exact_testers() {
             // These know no resolution.
             let once = ["exact", "brute-force", "bounding-volumes"].contains(&entry.name);
             for &resolution in if once { &RESOLUTIONS[..1] } else { &RESOLUTIONS } {
@@ -119,7 +134,7 @@ fn the_last_occluder_answers_for_many_points() {
 fn masks_do_not_depend_on_threads() {
     for case in cases::all() {
         let asked = Asked::of(&case);
-        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in exact_testers() {
             let [one, two] = [1, 2].map(|threads| {
                 let setting = Setting {
                     culling: Culling::ClosedSolids,
@@ -139,7 +154,7 @@ fn masks_do_not_depend_on_the_order_of_triangles_or_corners() {
         let asked = Asked::of(&case);
         let turned = cases::turned(&case);
         let again = Asked::of(&turned);
-        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in exact_testers() {
             assert_eq!(
                 asked.by_pixel(&ask(entry, &asked, setting(32))),
                 again.by_pixel(&ask(entry, &again, setting(32))),

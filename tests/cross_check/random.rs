@@ -1,10 +1,11 @@
 //! Random small scenes on a coarse grid: shared edges, coplanar and crossing faces, slivers, nothing nice.
 
 use crate::cases::{Case, lamp, soup, sun};
+use crate::exact_testers;
 use crate::runner::{Asked, Setting, ask};
 use glam::Vec3;
 use lightbuffer::scene::{Camera, ImageSize, Shadowing};
-use lightbuffer::shadow::{Basis, Culling, ObjectCoherence, Resolution, VolumeThreshold, testers};
+use lightbuffer::shadow::{Culling, ObjectCoherence, Resolution, VolumeThreshold};
 use proptest::prelude::*;
 
 fn grid_point() -> impl Strategy<Value = Vec3> {
@@ -79,7 +80,7 @@ proptest! {
     ) {
         let asked = Asked::of(&case);
         let truth = asked.plain_truth();
-        for entry in testers().filter(|entry| entry.basis != Basis::Measured) {
+        for entry in exact_testers() {
             for culling in [Culling::Off, Culling::ClosedSolids] {
                 let setting =
                     Setting { culling, threads: 1, ..Setting::of(Resolution::Cells(resolution)) };

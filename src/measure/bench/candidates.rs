@@ -112,7 +112,7 @@ pub fn candidates(choice: &Choice, stage: &Stage) -> Result<(Vec<Contender>, Vec
             skipped.push(Skipped { tester: entry.name.into(), why });
             continue;
         }
-        let is_buffer = entry.name == crate::shadow::light_buffer::ENTRY.name;
+        let is_buffer = entry.name == crate::shadow::kept_light_buffer::ENTRY.name;
         let resolutions: Vec<_> = match is_buffer {
             true => choice.resolutions.iter().copied().map(Some).collect(),
             false => vec![None],

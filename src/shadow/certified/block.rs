@@ -1,7 +1,9 @@
 //! A triangle against the sixteen cells of a block at once.
 
 use super::cell_lists::Item;
+use super::masks::bits;
 use super::tiles::BLOCK;
+use crate::geometry::batch::InstructionSet;
 
 /// What an edge says of the centre of a cell: a x + b y + at, positive inside, x and y counted from a first cell.
 #[derive(Debug, Clone, Copy)]
@@ -51,7 +53,14 @@ pub(super) struct Sixteen {
 impl Sixteen {
     /// The cells that the triangle may meet and that somebody looks into beyond `key`, a bit each.
     #[inline(always)]
-    pub fn fill(&mut self, patch: &Patch, [bx, by]: [u32; 2], keys: &[u32; BLOCK], key: u32) -> u32 {
+    pub fn fill(
+        &mut self,
+        set: InstructionSet,
+        patch: &Patch,
+        [bx, by]: [u32; 2],
+        keys: &[u32; BLOCK],
+        key: u32,
+    ) -> u32 {
         let mut live = [0u32; BLOCK];
         let [x_first, x_last] = patch.cells.x;
         let [y_first, y_last] = patch.cells.y;
@@ -74,7 +83,7 @@ impl Sixteen {
             // An interval without a number: the triangle is not there.
             live[i] = u32::from(is_asked & !cover.is_out & (near >= far));
         }
-        bits(&live)
+        bits(set, &live)
     }
 }
 
@@ -119,16 +128,6 @@ pub(super) fn depths(w: f32, spread: f32, [least, most]: [f32; 2]) -> [f32; 2] {
     [near, far]
 }
 
-/// Zeros and ones as bits.
-#[inline(always)]
-pub(super) fn bits(lanes: &[u32; BLOCK]) -> u32 {
-    let mut bits = 0;
-    for (i, lane) in lanes.iter().enumerate() {
-        bits |= lane << i;
-    }
-    bits
-}
-
 /// Whether one of the keys is above another.
 #[inline(always)]
 pub(super) fn any_above(keys: &[u32; BLOCK], key: u32) -> bool {
@@ -137,13 +136,4 @@ pub(super) fn any_above(keys: &[u32; BLOCK], key: u32) -> bool {
         any |= *other > key;
     }
     any
-}
-
-/// Calls for the place of each bit that is set.
-#[inline(always)]
-pub(super) fn each_bit(mut bits: u32, mut call: impl FnMut(usize)) {
-    while bits != 0 {
-        call(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
-    }
 }

@@ -1,6 +1,7 @@
 //! What the cells of one tile hold: a linked list for each.
 
-use super::block::{Sixteen, each_bit};
+use super::block::Sixteen;
+use super::masks::each_bit;
 use super::tiles::AREA;
 
 /// A triangle in a cell.

@@ -4,6 +4,7 @@ use super::certificate::Header;
 use super::dispatch::for_instruction_sets;
 use super::projection::Projector;
 use super::receivers::OPEN;
+use crate::geometry::batch::InstructionSet;
 
 /// Headers of all cells, and how well depths are known that are held against them.
 pub(super) struct Headers<'a> {
@@ -27,6 +28,7 @@ for_instruction_sets! {
 
 #[inline(always)]
 fn decide_body(
+    _: InstructionSet,
     all: &Headers<'_>,
     cells: &[u32],
     depths: &[f32],

@@ -1,17 +1,19 @@
 //! The lists of one tile after the other: its triangles, their common edges, what each is in each cell, and certificates.
 
 use super::bins::{Bins, Budget, Caller};
-use super::block::{Patch, Sixteen, any_above, each_bit};
+use super::block::{Patch, Sixteen, any_above};
 use super::cell_lists::{CellLists, Item};
 use super::certificate::{Entries, Header, Kinds, Record, Run, certify};
 use super::corners::{Corners, LANES};
 use super::dispatch::for_instruction_sets;
 use super::edges::Edges;
 use super::facing::{Facing, exactly};
+use super::masks::each_bit;
 use super::projection::{Projected, Projector};
 use super::receivers::Horizon;
 use super::small::Patches;
 use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
+use crate::geometry::batch::InstructionSet;
 use crate::scene::Scene;
 
 /// All that the lists of tiles are made of.
@@ -137,7 +139,7 @@ impl Lister<'_> {
 
     /// Enters all triangles of a tile in its cells.
     #[inline(always)]
-    fn enter(&self, tile: u32, first_cell: usize, scratch: &mut Scratch) {
+    fn enter(&self, set: InstructionSet, tile: u32, first_cell: usize, scratch: &mut Scratch) {
         self.gather_small(tile, scratch);
         let small = scratch.triangles.len();
         let mut large = Vec::new();
@@ -165,6 +167,7 @@ impl Lister<'_> {
             of_lanes[..count].copy_from_slice(&facing[first..first + count]);
             patches.fill(&self.projector, of_sixteen, &of_lanes);
             let there = self.enter_tiny(
+                set,
                 &numbers[first..first + count],
                 &irregular[first..],
                 &of_lanes,
@@ -174,7 +177,7 @@ impl Lister<'_> {
             );
             each_bit(there, |lane| {
                 let patch = patches.patch(lane, irregular[first + lane]);
-                self.enter_small(numbers[first + lane], &patch, &seen, cells);
+                self.enter_small(set, numbers[first + lane], &patch, &seen, cells);
             });
         }
         for (large, &irregular) in large.into_iter().zip(&irregular[small..]) {
@@ -186,7 +189,7 @@ impl Lister<'_> {
                 let keys = seen.block(place);
                 if any_above(keys, key) {
                     let mut sixteen = Sixteen::default();
-                    let live = sixteen.fill(&patch, block, keys, key);
+                    let live = sixteen.fill(set, &patch, block, keys, key);
                     cells.enter_block(place, large.triangle, flags, &sixteen, live);
                 }
             }
@@ -199,6 +202,7 @@ impl Lister<'_> {
     #[inline(always)]
     fn enter_tiny(
         &self,
+        set: InstructionSet,
         numbers: &[u32],
         irregular: &[u8],
         facing: &[Facing; LANES],
@@ -224,8 +228,15 @@ impl Lister<'_> {
         let (mut sixteen, mut places) = (Sixteen::default(), [0; LANES]);
         for y in 0..most[1] {
             for x in 0..most[0] {
-                let live =
-                    patches.in_cell([x, y], seen.corner, &of_lanes, seen.keys, &mut sixteen, &mut places);
+                let live = patches.in_cell(
+                    set,
+                    [x, y],
+                    seen.corner,
+                    &of_lanes,
+                    seen.keys,
+                    &mut sixteen,
+                    &mut places,
+                );
                 each_bit(live & tiny, |lane| {
                     let item = Item::new(numbers[lane], sixteen.flags[lane]);
                     cells.enter(places[lane] as usize, item, sixteen.near[lane], sixteen.far[lane]);
@@ -236,7 +247,14 @@ impl Lister<'_> {
     }
 
     #[inline(always)]
-    fn enter_small(&self, triangle: u32, patch: &Patch, seen: &Seen, cells: &mut CellLists) {
+    fn enter_small(
+        &self,
+        set: InstructionSet,
+        triangle: u32,
+        patch: &Patch,
+        seen: &Seen,
+        cells: &mut CellLists,
+    ) {
         let key = Horizon::key(patch.w_limits[1]);
         let block_of = |cell: u32, corner: u32| (cell & !(BLOCK_EDGE - 1)).max(corner);
         let last = |cell: u32, corner: u32| cell.min(corner + EDGE - 1);
@@ -249,7 +267,7 @@ impl Lister<'_> {
                 let keys = seen.block(place);
                 if any_above(keys, key) {
                     let mut sixteen = Sixteen::default();
-                    let live = sixteen.fill(patch, [x, y], keys, key);
+                    let live = sixteen.fill(set, patch, [x, y], keys, key);
                     cells.enter_block(place, triangle, 0, &sixteen, live);
                 }
             }
@@ -259,6 +277,7 @@ impl Lister<'_> {
 
 #[inline(always)]
 fn list_body(
+    set: InstructionSet,
     lister: &Lister<'_>,
     tiles: &[u32],
     first_cell: usize,
@@ -270,7 +289,7 @@ fn list_body(
             continue;
         }
         let first = i * AREA as usize;
-        lister.enter(tile, first_cell + first, scratch);
+        lister.enter(set, tile, first_cell + first, scratch);
         part.entries += scratch.cells.count() as u64;
         for cell in 0..AREA as usize {
             let horizon = lister.horizon.of(first_cell + first + cell);

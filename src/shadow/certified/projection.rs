@@ -12,6 +12,7 @@
 //! neither a quotient nor a product overflows, and what underflows is far below r H.
 
 use super::dispatch::for_instruction_sets;
+use crate::geometry::batch::InstructionSet;
 use glam::Vec3;
 
 /// Unit roundoff of f32.
@@ -111,7 +112,7 @@ for_instruction_sets! {
 }
 
 #[inline(always)]
-fn project_body(projector: &Projector, points: &[Vec3], projected: &mut [Projected]) {
+fn project_body(_: InstructionSet, projector: &Projector, points: &[Vec3], projected: &mut [Projected]) {
     for (projected, point) in projected.iter_mut().zip(points) {
         *projected = projector.project(point.to_array());
     }

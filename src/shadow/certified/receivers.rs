@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::shadow::light_buffer::cells::Cells;
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Receivers of a task.
 pub(super) const CHUNK: usize = 4096;
@@ -28,10 +28,14 @@ const MOST_ERROR: f32 = 1.0 / 512.0;
 
 /// For each cell the w beyond which nobody asks, as a key that is 0 where nobody does and grows with the distance.
 pub(super) struct Horizon {
-    cells: Vec<u32>,
+    /// Nothing if all may ask from wherever they are.
+    cells: Option<Vec<u32>>,
     /// The largest of each tile of the grid.
     tiles: Vec<u32>,
 }
+
+/// The keys of a tile about which anybody may ask.
+static ENDLESS: [u32; AREA as usize] = [u32::MAX; AREA as usize];
 
 impl Horizon {
     fn new(tiles: &Tiles, keys: &[AtomicU32]) -> Horizon {
@@ -40,7 +44,12 @@ impl Horizon {
         for (tile, keys) in tiles.stored().into_iter().zip(cells.chunks(AREA as usize)) {
             of_tiles[tile as usize] = keys.iter().copied().max().expect("a tile has cells");
         }
-        Horizon { cells, tiles: of_tiles }
+        Horizon { cells: Some(cells), tiles: of_tiles }
+    }
+
+    /// Nothing is beyond it.
+    pub fn endless(grid: &TileGrid) -> Horizon {
+        Horizon { cells: None, tiles: vec![u32::MAX; grid.count()] }
     }
 
     /// The key of a w, not negative.
@@ -52,7 +61,10 @@ impl Horizon {
     /// The keys of the cells of a tile.
     #[inline(always)]
     pub fn tile(&self, first: usize) -> &[u32; AREA as usize] {
-        self.cells[first..first + AREA as usize].try_into().expect("a tile")
+        match &self.cells {
+            Some(cells) => cells[first..first + AREA as usize].try_into().expect("a tile"),
+            None => &ENDLESS,
+        }
     }
 
     /// The largest key of each tile of the grid.
@@ -63,7 +75,7 @@ impl Horizon {
 
     /// What is withheld from a cell has at most this w.
     pub fn of(&self, cell: usize) -> f32 {
-        match self.cells[cell] {
+        match self.cells.as_ref().map_or(u32::MAX, |cells| cells[cell]) {
             0 => f32::INFINITY,
             key => f32::from_bits(!key),
         }
@@ -75,11 +87,9 @@ pub(super) struct Filed {
     pub tiles: Tiles,
     /// The cell that each one's exact point lies in, or [`OPEN`] for one in the light.
     pub cells: Vec<u32>,
-    /// w of each, wrong by [`Projector::error_of`]; NaN where f32 cannot hold it.
+    /// As [`Whereabouts::depths`].
     pub depths: Vec<f32>,
     pub horizon: Horizon,
-    /// Whether one of them lies on no primitive.
-    pub has_bare: bool,
 }
 
 impl Filed {
@@ -90,7 +100,6 @@ impl Filed {
         // No more tiles than receivers. Pages that nobody writes to cost nothing.
         let most = grid.count().min(points.len()) * AREA as usize;
         let horizon: Vec<AtomicU32> = bytemuck::zeroed_vec(most);
-        let has_bare = AtomicBool::new(false);
         let mut cells = vec![0; points.len()];
         let mut depths = vec![0.0; points.len()];
         (points.par_chunks(CHUNK), cells.par_chunks_mut(CHUNK), depths.par_chunks_mut(CHUNK))
@@ -99,39 +108,71 @@ impl Filed {
                 let _floats = StandardFloats::new();
                 let mut places = [0; CHUNK];
                 let places = &mut places[..points.len()];
-                let rounded = Rounded::new(points);
-                if points.iter().any(|point| point.primitive().is_none()) {
-                    has_bare.store(true, Relaxed);
-                }
-                locate(set, projector, &grid, rounded.coordinates(points.len()), cells, places, depths);
-                for (i, point) in points.iter().enumerate() {
-                    if cells[i] == OPEN {
-                        (cells[i], places[i], depths[i]) = locate_exactly(projector, &grid, scene, point);
-                    }
-                }
+                let whereabouts = Whereabouts { tiles: cells, places, depths };
+                whereabouts.find(set, projector, &grid, scene, points);
                 file(&tiles, &horizon, cells, places, depths);
             });
         let horizon = Horizon::new(&tiles, &horizon);
-        Filed { tiles, cells, depths, horizon, has_bare: has_bare.into_inner() }
+        Filed { tiles, cells, depths, horizon }
+    }
+}
+
+/// Where up to [`CHUNK`] receivers are.
+pub(super) struct Whereabouts<'a> {
+    /// The tile of the grid that each one's exact point lies in, or [`OPEN`] for one in the light.
+    pub tiles: &'a mut [u32],
+    /// The place of its cell in the tile.
+    pub places: &'a mut [u8],
+    /// w of each, wrong by [`Projector::error_of`]; NaN where f32 cannot hold it, and for those that lie on no primitive,
+    /// which no header lights.
+    pub depths: &'a mut [f32],
+}
+
+impl Whereabouts<'_> {
+    /// Finds them all.
+    pub fn find(
+        self,
+        set: InstructionSet,
+        projector: &Projector,
+        grid: &TileGrid,
+        scene: &Scene,
+        points: &[SurfacePoint],
+    ) {
+        let Whereabouts { tiles, places, depths } = self;
+        let rounded = Rounded::new(points);
+        locate(set, projector, grid, rounded.coordinates(points.len()), tiles, places, depths);
+        for (i, point) in points.iter().enumerate() {
+            if tiles[i] == OPEN {
+                (tiles[i], places[i], depths[i]) = locate_exactly(projector, grid, scene, point);
+            }
+            if rounded.bare[i] {
+                depths[i] = f32::NAN;
+            }
+        }
     }
 }
 
 /// Positions rounded to f32, axis by axis: each wrong by half an ulp and 2^-29 of that.
-struct Rounded([[f32; CHUNK]; 3]);
+struct Rounded {
+    axes: [[f32; CHUNK]; 3],
+    /// Which lie on no primitive.
+    bare: [bool; CHUNK],
+}
 
 impl Rounded {
     #[inline(always)]
     fn new(points: &[SurfacePoint]) -> Rounded {
-        let mut axes = [[0.0; CHUNK]; 3];
+        let (mut axes, mut bare) = ([[0.0; CHUNK]; 3], [false; CHUNK]);
         for (i, point) in points.iter().enumerate() {
+            bare[i] = point.primitive().is_none();
             let position = point.position.as_vec3();
             (axes[0][i], axes[1][i], axes[2][i]) = (position.x, position.y, position.z);
         }
-        Rounded(axes)
+        Rounded { axes, bare }
     }
 
     fn coordinates(&self, count: usize) -> [&[f32]; 3] {
-        self.0.each_ref().map(|axis| &axis[..count])
+        self.axes.each_ref().map(|axis| &axis[..count])
     }
 }
 
@@ -185,6 +226,7 @@ for_instruction_sets! {
 /// Tile, place and w of points whose cell and depth are certain; the tile of others is [`OPEN`].
 #[inline(always)]
 fn locate_body(
+    _: InstructionSet,
     projector: &Projector,
     grid: &TileGrid,
     points: [&[f32]; 3],

@@ -1,11 +1,13 @@
 //! Triangles that lie on one side and touch few cells, sixteen at a time: all in f32, on the side.
 
-use super::block::{CellBox, Cover, Edge, Patch, Sixteen, bits, depths};
+use super::block::{CellBox, Cover, Edge, Patch, Sixteen, depths};
 use super::corners::{Corners, LANES};
 use super::facing::Facing;
+use super::masks::bits;
 use super::projection::{Projector, ROUNDOFF, cell_and_border, larger};
 use super::receivers::Horizon;
 use super::tiles::{AREA, EDGE, TileGrid};
+use crate::geometry::batch::InstructionSet;
 
 /// An edge of each triangle; see [`Edge`].
 #[derive(Debug, Default)]
@@ -57,7 +59,8 @@ impl Patches {
             let (u, v, w) = (of(&corners.u), of(&corners.v), of(&corners.w));
             let [columns, rows] = corners.limits(i, delta).map(|limits| limits.map(|x| cell_and_border(x).0));
             let centre = [columns[0] as i32 as f32 + 0.5, rows[0] as i32 as f32 + 0.5];
-            let cells_across = (columns[1] - columns[0]).wrapping_add(rows[1] - rows[0]);
+            let across = |ends: [u32; 2]| ends[1].wrapping_sub(ends[0]);
+            let cells_across = across(columns).wrapping_add(across(rows));
             let reach = cells_across as i32 as f32 + 3.0;
             for (j, edge) in self.edges.iter_mut().enumerate() {
                 let (p, q) = (j, if j == 2 { 0 } else { j + 1 });
@@ -106,6 +109,7 @@ impl Patches {
     #[inline(always)]
     pub fn in_cell(
         &self,
+        set: InstructionSet,
         [dx, dy]: [u32; 2],
         corner: [u32; 2],
         irregular: &[u32; LANES],
@@ -116,7 +120,8 @@ impl Patches {
         let (x, y) = (dx as f32, dy as f32);
         let mut live = [0u32; LANES];
         for i in 0..LANES {
-            let (column, row) = (self.columns[0][i] + dx, self.rows[0][i] + dy);
+            let column = self.columns[0][i].wrapping_add(dx);
+            let row = self.rows[0][i].wrapping_add(dy);
             let (in_tile_x, in_tile_y) = (column.wrapping_sub(corner[0]), row.wrapping_sub(corner[1]));
             let is_there = (column <= self.columns[1][i])
                 & (row <= self.rows[1][i])
@@ -143,7 +148,7 @@ impl Patches {
             places[i] = place;
             live[i] = u32::from(is_asked & !cover.is_out & (near >= far));
         }
-        bits(&live)
+        bits(set, &live)
     }
 
     /// One of them, whose edges 01, 12 and 20 are irregular that have a bit in `irregular`.

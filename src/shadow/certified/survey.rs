@@ -1,13 +1,14 @@
 //! Which triangles may be in front of a receiver, tile by tile: sixteen triangles at a time.
 
 use super::bins::{Bins, Caller};
-use super::block::{bits, each_bit};
 use super::corners::{Corners, LANES};
 use super::dispatch::for_instruction_sets;
 use super::is_plain;
+use super::masks::{bits, each_bit};
 use super::projection::{Projected, Projector, cell_and_border};
 use super::receivers::Horizon;
 use super::tiles::{EDGE, TileGrid};
+use crate::geometry::batch::InstructionSet;
 use crate::scene::Scene;
 use std::ops::Range;
 
@@ -97,7 +98,7 @@ impl Survey<'_> {
     }
 
     #[inline(always)]
-    fn sixteen(&self, first: u32, count: usize, bins: &mut Bins) {
+    fn sixteen(&self, set: InstructionSet, first: u32, count: usize, bins: &mut Bins) {
         let mut corners = Corners::default();
         for lane in 0..count {
             let vertices = self.scene.triangles[first as usize + lane].vertices;
@@ -109,7 +110,7 @@ impl Survey<'_> {
             *asked = u32::from(spans.tile_key[i] > spans.key[i]);
         }
         let present = u32::MAX >> (32 - count);
-        each_bit(bits(&asked) & present, |lane| {
+        each_bit(bits(set, &asked) & present, |lane| {
             let triangle = first + lane as u32;
             if self.cast == Cast::Plain && !is_plain(self.scene, triangle) {
                 return;
@@ -137,11 +138,11 @@ impl Survey<'_> {
 }
 
 #[inline(always)]
-fn survey_body(survey: &Survey<'_>, triangles: Range<u32>, bins: &mut Bins<'_>) {
+fn survey_body(set: InstructionSet, survey: &Survey<'_>, triangles: Range<u32>, bins: &mut Bins<'_>) {
     let mut first = triangles.start;
     while first < triangles.end && !bins.overflowed {
         let count = (triangles.end - first).min(LANES as u32);
-        survey.sixteen(first, count as usize, bins);
+        survey.sixteen(set, first, count as usize, bins);
         first += count;
     }
 }

@@ -1,98 +1,128 @@
 //! Queries that headers leave open against the list of their cell, sixteen at a time.
 
-use super::block::{bits, each_bit};
 use super::cell_lists::Item;
 use super::certificate::Record;
 use super::dispatch::for_instruction_sets;
-use super::projection::{Projected, Projector, ROUNDOFF, larger, smaller};
+use super::fetch::fetch;
+use super::making::Lists;
+use super::masks::{bits, each_bit};
+use super::open::Open;
+use super::projection::{Projected, ROUNDOFF, larger, smaller};
 use super::tiles::BLOCK;
 use crate::geometry::LightSpace;
+use crate::geometry::batch::InstructionSet;
 use crate::geometry::occlusion::PreciseQuery;
-use crate::scene::{PrimitiveIndex, Scene};
+use crate::scene::Scene;
 use crate::shadow::{Counters, precise};
 use crate::visibility::SurfacePoint;
 
 /// Queries that walk together.
-pub(super) const LANES: usize = BLOCK;
-
-/// Records whose triangles are looked up together.
-const GROUP: usize = 8;
+const LANES: usize = BLOCK;
 
 /// What all queries of a light share.
 pub(super) struct Walk<'a> {
     pub scene: &'a Scene,
-    pub projector: &'a Projector,
     pub space: &'a LightSpace,
     pub points: &'a [SurfacePoint],
     /// The scene's vertices.
     pub projected: &'a [Projected],
+    pub lists: &'a Lists,
+    /// Of the projector.
+    pub delta: f32,
 }
 
-impl Walk<'_> {
-    /// Corners of the first triangles of a list.
+/// Queries of one cell, at most [`LANES`], and its list.
+#[derive(Clone, Copy)]
+struct Portion<'a> {
+    /// Keys of open queries.
+    keys: &'a [u64],
+    records: &'a [Record],
+}
+
+/// Lists are read from memory so many portions ahead, triangles half as many.
+const AHEAD: usize = 8;
+
+/// Records of a list that are fetched ahead.
+const FETCHED: usize = 12;
+
+impl<'a> Walk<'a> {
+    /// The open queries of each cell in portions, in the order of their keys.
+    fn portions(&self, keys: &'a [u64]) -> Vec<Portion<'a>> {
+        let mut portions = Vec::with_capacity(keys.len());
+        for of_cell in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
+            let records = self.lists.of((of_cell[0] >> 32) as usize);
+            portions.extend(of_cell.chunks(LANES).map(|keys| Portion { keys, records }));
+        }
+        portions
+    }
+
+    /// Has what some portions later on need fetched.
     #[inline(always)]
-    fn corners(&self, records: &[Record]) -> [[Projected; 3]; GROUP] {
-        std::array::from_fn(|i| match records.get(i) {
-            Some(record) => {
-                let triangle = &self.scene.triangles[record.item.triangle() as usize];
-                triangle.vertices.map(|vertex| self.projected[vertex as usize])
+    fn fetch_ahead(&self, portions: &[Portion], open: &[Open]) {
+        if let Some(portion) = portions.get(2 * AHEAD) {
+            portion.records.iter().take(1).for_each(fetch);
+        }
+        if let Some(portion) = portions.get(AHEAD) {
+            portion.keys.iter().for_each(|&key| fetch(&open[key as u32 as usize]));
+            for record in portion.records.iter().take(FETCHED) {
+                fetch(&self.scene.triangles[record.item.triangle() as usize]);
             }
-            None => Default::default(),
-        })
+        }
+        if let Some(portion) = portions.get(AHEAD / 2) {
+            for record in portion.records.iter().take(FETCHED) {
+                let vertices = self.scene.triangles[record.item.triangle() as usize].vertices;
+                vertices.into_iter().for_each(|vertex| fetch(&self.projected[vertex as usize]));
+            }
+        }
     }
 }
 
-/// Queries of one cell, at most [`LANES`] of them, and its list. The number of a query is in the lower half.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Portion<'a> {
-    pub queries: &'a [u64],
-    pub records: &'a [Record],
-}
-
-/// Portions that are walked together.
-pub(super) const PORTIONS: usize = 16;
-
-/// Sixteen receivers on one side; those that are not there repeat the last.
-#[derive(Debug, Default)]
+/// Sixteen receivers of one cell; those that are not there repeat the first.
+#[derive(Debug)]
 struct Lanes {
     u: [f32; LANES],
     v: [f32; LANES],
     /// At most w, and at least.
     w_low: [f32; LANES],
     w_high: [f32; LANES],
-    /// What a difference of u or v with a vertex's is wrong by, but for its rounding.
-    delta: [f32; LANES],
     base: [u32; LANES],
-    /// Their side, if all are on one and within the range of f32.
-    side: Option<u32>,
+    query: [u32; LANES],
+    /// Lanes about whose place f32 knows nothing.
+    lost: u32,
+    /// Limits of u and of v of the others.
+    u_limits: [f32; 2],
+    v_limits: [f32; 2],
 }
 
 impl Lanes {
+    const NONE: Lanes = Lanes {
+        u: [0.0; LANES],
+        v: [0.0; LANES],
+        w_low: [0.0; LANES],
+        w_high: [0.0; LANES],
+        base: [0; LANES],
+        query: [0; LANES],
+        lost: 0,
+        u_limits: [0.0; 2],
+        v_limits: [0.0; 2],
+    };
+
     #[inline(always)]
-    fn new(walk: &Walk<'_>, queries: &[u64]) -> Lanes {
-        let mut lanes = Lanes::default();
-        let mut sides = [Projected::NOWHERE; LANES];
-        for i in 0..LANES {
-            let query = queries[i.min(queries.len() - 1)] as u32 as usize;
-            let point = &walk.points[query];
-            let at = point.position.as_vec3().to_array();
-            let p = walk.projector.project(at);
-            let size = at[0].abs().max(at[1].abs()).max(at[2].abs());
-            let error = walk.projector.error_of(size, p.w);
-            // Beyond, the point may lie anywhere.
-            let is_near = (p.side != Projected::NOWHERE) & (error < 0.5);
-            sides[i] = if is_near { p.side } else { Projected::NOWHERE };
-            (lanes.u[i], lanes.v[i]) = (p.u, p.v);
-            lanes.delta[i] = walk.projector.delta_of(size, p.w) + walk.projector.delta;
-            (lanes.w_low[i], lanes.w_high[i]) = match is_near {
-                true => (p.w * (1.0 - error), p.w * (1.0 + error)),
-                false => (0.0, f32::INFINITY),
-            };
-            lanes.base[i] = point.primitive().unwrap_or(PrimitiveIndex::MAX);
+    fn fill<'o>(&mut self, queries: impl Iterator<Item = &'o Open>) {
+        self.lost = 0;
+        (self.u_limits, self.v_limits) =
+            ([f32::INFINITY, f32::NEG_INFINITY], [f32::INFINITY, f32::NEG_INFINITY]);
+        for (i, open) in queries.enumerate() {
+            (self.u[i], self.v[i]) = (open.u, open.v);
+            (self.w_low[i], self.w_high[i]) = (open.w_low, open.w_high);
+            (self.base[i], self.query[i]) = (open.base, open.query);
+            if open.is_lost {
+                self.lost |= 1 << i;
+                continue;
+            }
+            self.u_limits = [smaller(open.u, self.u_limits[0]), larger(open.u, self.u_limits[1])];
+            self.v_limits = [smaller(open.v, self.v_limits[0]), larger(open.v, self.v_limits[1])];
         }
-        let is_one = sides.iter().all(|&side| side == sides[0]) && sides[0] != Projected::NOWHERE;
-        lanes.side = is_one.then_some(sides[0]);
-        lanes
     }
 
     /// At most the w of any of some lanes.
@@ -108,119 +138,153 @@ impl Lanes {
 
     /// Lanes that lie on a triangle.
     #[inline(always)]
-    fn on(&self, triangle: u32) -> u32 {
-        bits(&std::array::from_fn(|i| u32::from(self.base[i] == triangle)))
+    fn on(&self, set: InstructionSet, triangle: u32) -> u32 {
+        bits(set, &std::array::from_fn(|i| u32::from(self.base[i] == triangle)))
     }
 
-    /// Lanes that a triangle on their side certainly blocks, and those that it may.
+    /// Of some lanes those that a triangle on their side certainly blocks, and those that it may.
     ///
-    /// E of an edge from p to q at a receiver (x, y): du and dv are wrong by 2.2 delta, x - p.u and y - p.v by
-    /// 1.1 of the sum of both deltas, d; E by 2.2 d (|x - p.u| + |y - p.v|) + 1.1 d (|du| + |dv|) + 2.5 d^2 and
-    /// roundings of 3 r of each product, which r R = delta / 5 bounds: 3 d of all and 6 d^2. With all three of one sign the
-    /// weights E / A are from 0 to 1 and wrong by twice the sum of the three bounds over A together, or A is so
-    /// small that this is more than 1; w of the triangle is wrong by that times the range of w at its corners, and by less
-    /// than 32 r of itself.
+    /// E of an edge from p to q at a receiver (x, y): x - p.u and y - p.v are wrong by d, a quarter above delta
+    /// ([`Open::new`]), du and dv by 2 delta, which is 1.6 d; E by 1.6 d (|x - p.u| + |y - p.v|) + d (|du| + |dv|) + 3.2 d^2.
+    /// Roundings are 4 r of each product, where r R is 0.16 d: 0.64 d of the first sum. So 2.5 d of that,
+    /// 1.25 d of the second and 4 d^2 are enough, for the largest differences of all lanes. With all three of one sign the
+    /// weights E / A are from 0 to 1 and wrong by twice the sum of the three bounds over A together, or A is so small that
+    /// this is more than 1; w of the triangle is wrong by that times the range of w at its corners, and by less than 32 r
+    /// of itself.
     #[inline(always)]
-    fn against(&self, [a, b, c]: [Projected; 3], near: f32) -> (u32, u32) {
-        let corners = [a, b, c];
-        let edges: [[f32; 3]; 3] = std::array::from_fn(|j| {
-            let (p, q) = (corners[j], corners[(j + 1) % 3]);
+    fn against(
+        &self,
+        set: InstructionSet,
+        asked: u32,
+        triangle: u32,
+        corners: [&Projected; 3],
+        near: f32,
+        delta: f32,
+    ) -> (u32, u32) {
+        let d = 1.25 * delta;
+        let [a, b, c] = corners;
+        let edges: [[f32; 5]; 3] = std::array::from_fn(|j| {
+            let (p, q) = (corners[j], corners[if j == 2 { 0 } else { j + 1 }]);
             let (du, dv) = (q.u - p.u, q.v - p.v);
-            [du, dv, du.abs() + dv.abs()]
+            let x = larger(p.u - self.u_limits[0], self.u_limits[1] - p.u);
+            let y = larger(p.v - self.v_limits[0], self.v_limits[1] - p.v);
+            let slack = d * (1.25 * (du.abs() + dv.abs()) + 2.5 * (x + y) + 4.0 * d);
+            [p.u, p.v, du, dv, slack]
         });
-        let range = larger(larger(a.w, b.w), c.w) - smaller(smaller(a.w, b.w), c.w);
-        let (mut blocked, mut open) = ([0u32; LANES], [0u32; LANES]);
+        let mut e = [[0f32; LANES]; 3];
+        let (mut outside, mut inside) = ([0u32; LANES], [0u32; LANES]);
         for i in 0..LANES {
-            let d = self.delta[i];
-            let (mut e, mut slack) = ([0f32; 3], [0f32; 3]);
-            for j in 0..3 {
-                let (x, y) = (self.u[i] - corners[j].u, self.v[i] - corners[j].v);
-                let [du, dv, length] = edges[j];
-                e[j] = du * y - dv * x;
-                slack[j] = (3.0 * d) * ((length + x.abs()) + (y.abs() + 2.0 * d));
+            let (mut is_above, mut is_below) = ([false; 3], [false; 3]);
+            for (j, &[pu, pv, du, dv, slack]) in edges.iter().enumerate() {
+                let value = du * (self.v[i] - pv) - dv * (self.u[i] - pu);
+                e[j][i] = value;
+                is_above[j] = value > slack;
+                is_below[j] = value < -slack;
             }
-            let above = [e[0] > slack[0], e[1] > slack[1], e[2] > slack[2]];
-            let below = [e[0] < -slack[0], e[1] < -slack[1], e[2] < -slack[2]];
-            let is_outside = (above[0] | above[1] | above[2]) & (below[0] | below[1] | below[2]);
-            let is_inside = (above[0] & above[1] & above[2]) | (below[0] & below[1] & below[2]);
-            let area = e[0] + e[1] + e[2];
-            let w = (e[1] * a.w + e[2] * b.w + e[0] * c.w) / area;
-            let wrong = range * (2.0 * (slack[0] + slack[1] + slack[2]) / area.abs()) + w * (32.0 * ROUNDOFF);
-            let is_before = w - wrong > self.w_high[i];
-            let is_behind = (is_inside & (w + wrong < self.w_low[i])) | (near < self.w_low[i]);
-            blocked[i] = u32::from(is_inside & is_before);
-            open[i] = u32::from(!(is_outside | is_behind | (is_inside & is_before)));
+            let any = |of: [bool; 3]| of[0] | of[1] | of[2];
+            let all = |of: [bool; 3]| of[0] & of[1] & of[2];
+            outside[i] = u32::from(any(is_above) & any(is_below));
+            inside[i] = u32::from(all(is_above) | all(is_below));
         }
-        (bits(&blocked), bits(&open))
+        let met = asked & !bits(set, &outside);
+        if met == 0 {
+            return (0, 0);
+        }
+        // Nothing blocks what lies in its plane.
+        let met = met & !self.on(set, triangle);
+        if met == 0 {
+            return (0, 0);
+        }
+        let range = larger(larger(a.w, b.w), c.w) - smaller(smaller(a.w, b.w), c.w);
+        let twice = 2.0 * range * ((edges[0][4] + edges[1][4]) + edges[2][4]);
+        let (mut blocked, mut behind) = ([0u32; LANES], [0u32; LANES]);
+        for i in 0..LANES {
+            let per_area = 1.0 / ((e[0][i] + e[1][i]) + e[2][i]);
+            let w = ((e[1][i] * a.w + e[2][i] * b.w) + e[0][i] * c.w) * per_area;
+            let wrong = twice * per_area.abs() + w * (32.0 * ROUNDOFF);
+            let is_inside = inside[i] == 1;
+            blocked[i] = u32::from(is_inside & (w - wrong > self.w_high[i]));
+            behind[i] = u32::from((is_inside & (w + wrong < self.w_low[i])) | (near < self.w_low[i]));
+        }
+        let blocked = met & bits(set, &blocked);
+        (blocked, met & !blocked & !bits(set, &behind))
     }
 }
 
-#[inline(always)]
-fn walk_body(walk: &Walk<'_>, portions: &[Portion<'_>], occluded: &mut Vec<u32>, counters: &mut Counters) {
-    // All queries first and then all first triangles, so that what has to be fetched is not waited for one by one.
-    let mut lanes: [Lanes; PORTIONS] = Default::default();
-    let mut corners = [[Default::default(); GROUP]; PORTIONS];
-    for (lanes, portion) in lanes.iter_mut().zip(portions) {
-        *lanes = Lanes::new(walk, portion.queries);
-    }
-    for (corners, portion) in corners.iter_mut().zip(portions) {
-        *corners = walk.corners(portion.records);
-    }
-    for ((portion, lanes), &corners) in portions.iter().zip(&lanes).zip(&corners) {
-        walk_one(walk, portion, lanes, corners, occluded, counters);
-    }
-}
-
+/// One portion of a cell's queries.
 #[inline(always)]
 fn walk_one(
+    set: InstructionSet,
     walk: &Walk<'_>,
-    portion: &Portion<'_>,
+    records: &[Record],
     lanes: &Lanes,
-    first_corners: [[Projected; 3]; GROUP],
-    occluded: &mut Vec<u32>,
+    count: usize,
+    occluded: &mut [bool],
     counters: &mut Counters,
 ) {
-    let Portion { queries, records } = *portion;
-    let mut live = u32::MAX >> (32 - queries.len());
+    let mut live = u32::MAX >> (32 - count);
     let mut lowest = lanes.lowest(live);
-    for (number, group) in records.chunks(GROUP).enumerate() {
-        let corners = if number == 0 { first_corners } else { walk.corners(group) };
-        for (record, corners) in group.iter().zip(corners) {
-            // Nothing further on can be before any of them.
-            if record.near < lowest || live == 0 {
+    for record in records {
+        // Nothing further on can be before any of them.
+        if record.near < lowest {
+            return;
+        }
+        counters.tests += u64::from(live.count_ones());
+        let triangle = record.item.triangle();
+        let (mut blocked, open) = match record.item.has(Item::IN_SPACE) {
+            true => (0, live & !lanes.on(set, triangle)),
+            false => {
+                let [a, b, c] = walk.scene.triangles[triangle as usize].vertices;
+                let corners = [a, b, c].map(|vertex| &walk.projected[vertex as usize]);
+                let placed = live & !lanes.lost;
+                let (blocked, open) = lanes.against(set, placed, triangle, corners, record.near, walk.delta);
+                let lost = live & lanes.lost;
+                (blocked, if lost == 0 { open } else { open | lost & !lanes.on(set, triangle) })
+            }
+        };
+        each_bit(open, |lane| {
+            if record.near >= lanes.w_low[lane] {
+                counters.undecided += 1;
+                blocked |= u32::from(blocks(walk, lanes.query[lane], triangle, counters)) << lane;
+            }
+        });
+        if blocked != 0 {
+            each_bit(blocked, |lane| occluded[lanes.query[lane] as usize] = true);
+            live &= !blocked;
+            if live == 0 {
                 return;
             }
-            let triangle = record.item.triangle();
-            // Nothing blocks what lies in its plane.
-            let asked = live & !lanes.on(triangle);
-            counters.tests += u64::from(asked.count_ones());
-            let is_flat = !record.item.has(Item::IN_SPACE) && lanes.side == Some(corners[0].side);
-            let (blocked, open) = match is_flat {
-                true => lanes.against(corners, record.near),
-                false => (0, u32::MAX),
-            };
-            let (mut blocked, open) = (blocked & asked, open & asked);
-            each_bit(open, |lane| {
-                if record.near >= lanes.w_low[lane] {
-                    counters.undecided += 1;
-                    blocked |= u32::from(blocks(walk, queries[lane] as u32, triangle, counters)) << lane;
-                }
-            });
-            if blocked != 0 {
-                each_bit(blocked, |lane| occluded.push(queries[lane] as u32));
-                live &= !blocked;
-                lowest = lanes.lowest(live);
-            }
+            lowest = lanes.lowest(live);
         }
+    }
+}
+
+#[inline(always)]
+fn walk_body(
+    set: InstructionSet,
+    walk: &Walk<'_>,
+    open: &[Open],
+    keys: &[u64],
+    occluded: &mut [bool],
+    counters: &mut Counters,
+) {
+    let mut lanes = Lanes::NONE;
+    let portions = walk.portions(keys);
+    for (number, portion) in portions.iter().enumerate() {
+        walk.fetch_ahead(&portions[number..], open);
+        lanes.fill(portion.keys.iter().map(|&key| &open[key as u32 as usize]));
+        walk_one(set, walk, portion.records, &lanes, portion.keys.len(), occluded, counters);
     }
 }
 
 for_instruction_sets! {
-    /// Adds those queries of at most [`PORTIONS`] portions to `occluded` that something in their lists blocks.
+    /// Sets those of `occluded` that something in the list of their cell blocks. In the lower half of a key is the place of an
+    /// open query, in the upper half its cell; those of a cell should follow each other.
     pub(super) fn walk = walk_body, (
         walk: &Walk<'_>,
-        portions: &[Portion<'_>],
-        occluded: &mut Vec<u32>,
+        open: &[Open],
+        keys: &[u64],
+        occluded: &mut [bool],
         counters: &mut Counters,
     )
 }

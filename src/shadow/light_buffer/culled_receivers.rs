@@ -69,7 +69,6 @@ impl LightBuffer<'_> {
 mod tests {
     use super::*;
     use crate::scene::{ObjectInput, SceneBuilder};
-    use crate::shadow::light_buffer::ENTRY;
     use crate::shadow::{BuildInput, Culling, Resolution, SceneIndex, exact};
     use glam::Vec3;
 
@@ -104,20 +103,20 @@ mod tests {
             .flat_map(|t| (0..=4).flat_map(move |u| (0..=4 - u).map(move |v| (t, u, v))))
             .map(|(t, u, v)| inside(t, u, v))
             .collect();
-        let answers = |entry: &crate::shadow::TesterEntry, resolution: u32| {
+        let answers = |build: &crate::shadow::Build, resolution: u32| {
             let input = BuildInput {
                 resolution: Resolution::Cells(resolution),
                 culling: Culling::ClosedSolids,
                 ..BuildInput::new(&scene, &index, light)
             };
             let mut answers = vec![false; points.len()];
-            let counters = (entry.build)(&input).unwrap().occluded(&points, &mut answers).unwrap();
+            let counters = build(&input).unwrap().occluded(&points, &mut answers).unwrap();
             (answers, counters.tests)
         };
-        let (truth, _) = answers(&exact::ENTRY, 1);
+        let (truth, _) = answers(exact::ENTRY.build, 1);
         assert!(truth.iter().any(|&t| t) && !truth.iter().all(|&t| t));
         for resolution in [1, 7, 64] {
-            let (found, tests) = answers(&ENTRY, resolution);
+            let (found, tests) = answers(&|input| Ok(Box::new(LightBuffer::new(input)?)), resolution);
             assert_eq!(found, truth, "R = {resolution}");
             assert!(tests < 12 * points.len() as u64, "points inside of a triangle need no test");
         }

@@ -28,10 +28,7 @@ mod walk;
 pub use audit::Audit;
 pub use occupancy::Occupancy;
 
-use super::{
-    Basis, BuildInput, Casters, Counters, Crossings, Lights, ObjectCoherence, Receivers, Resolution,
-    ShadowTester, TesterEntry,
-};
+use super::{BuildInput, Casters, Counters, Crossings, ObjectCoherence, Receivers, Resolution, ShadowTester};
 use crate::error::{Error, Result};
 use crate::float_environment::StandardFloats;
 use crate::geometry::ExactPosition;
@@ -47,15 +44,6 @@ use glam::Vec3;
 use groups::{CellGroups, Group};
 use roles::Roles;
 use transparent::TransparentLists;
-
-/// `light-buffer` in the registry.
-pub const ENTRY: TesterEntry = TesterEntry {
-    name: "light-buffer",
-    basis: Basis::Exact,
-    lights: Lights::All,
-    build: &|input| Ok(Box::new(LightBuffer::new(input)?)),
-    expected_tests: |_, queries| 10.0 * queries,
-};
 
 /// The largest number of cells along an edge.
 pub const MOST_CELLS: u32 = 4096;

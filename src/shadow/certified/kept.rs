@@ -1,0 +1,185 @@
+//! Cells of all that a light sees, kept for whatever is asked later: the light buffer.
+
+use super::answer::{Asked, QUERIES, sum};
+use super::bins::{Bins, Budget};
+use super::certificate::{Header, Record, Run};
+use super::lists::Lister;
+use super::projection::{Projected, Projector};
+use super::receivers::{CHUNK, Horizon, OPEN, Whereabouts};
+use super::survey::{Cast, Survey};
+use super::tiles::{AREA, TileGrid};
+
+use super::making::Lists;
+use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
+use crate::error::Result;
+use crate::float_environment::StandardFloats;
+use crate::geometry::LightSpace;
+use crate::memory::MemoryLimit;
+use crate::visibility::SurfacePoint;
+use rayon::prelude::*;
+
+/// The resolution at which is looked where triangles lie.
+const FEW_CELLS: u32 = 256;
+
+/// Fewer than this save no memory that would be worth it.
+const LEAST_CELLS: u32 = 16;
+
+/// More cells on a side than so many for each triangle are of no use: small scenes are as fast with few.
+const MOST_A_TRIANGLE: u64 = 64;
+
+/// Headers and lists of all cells that a light's triangles lie in.
+pub struct Kept<'a> {
+    certified: Certified<'a>,
+    projector: Projector,
+    space: LightSpace,
+    cast: Cast,
+    /// No coordinate of a triangle is larger.
+    size: f32,
+    grid: TileGrid,
+    /// The first cell of each tile of the grid, or [`OPEN`] where nothing lies.
+    tiles: Vec<u32>,
+    projected: Vec<Projected>,
+    lists: Lists,
+    work: Work,
+}
+
+impl<'a> Certified<'a> {
+    /// Makes cells that are good for any query.
+    ///
+    /// # Errors
+    /// As [`occluded`](Certified::occluded).
+    pub fn keep(self, resolution: u32) -> Result<Kept<'a>> {
+        let _floats = StandardFloats::new();
+        let memory = self.checked(resolution, 0)?;
+        self.with_fewer_cells(resolution, |resolution| self.keep_at(resolution, memory.left()))
+    }
+
+    /// The same with as many cells as are of use and need no more than so many bytes, if that can be.
+    ///
+    /// # Errors
+    /// As [`occluded`](Certified::occluded).
+    pub fn keep_within(self, bytes: u64) -> Result<Kept<'a>> {
+        let _floats = StandardFloats::new();
+        let memory = self.checked(1, 0)?;
+        let mut resolution = self.resolution_within(bytes, memory);
+        loop {
+            let kept = self.keep(resolution)?;
+            resolution = kept.work.resolution / 2;
+            if resolution < LEAST_CELLS || kept.bytes() as u64 <= bytes {
+                return Ok(kept);
+            }
+        }
+    }
+
+    /// The largest power of two for which so many bytes are to be expected: what a few cells show of the part of the
+    /// directions in which triangles lie, a header each, and records of triangles that lie in two or three cells each.
+    fn resolution_within(&self, bytes: u64, memory: MemoryLimit) -> u32 {
+        let projector = Projector::new(self.light, FEW_CELLS);
+        let grid = TileGrid::new(FEW_CELLS);
+        let (projected, horizon) = (self.projected(&projector), Horizon::endless(&grid));
+        let cast = self.cast();
+        let survey =
+            Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
+        let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
+        let Some(bins) = self.bins(&survey, &budget) else { return LEAST_CELLS };
+        let is_there = |tile: &u32| bins.iter().any(|bins| !bins.is_empty(*tile));
+        let tiles = (0..grid.count() as u32).filter(is_there).count() as u64;
+        let triangles = self.scene.triangles.len() as u64;
+        let a_cell = (size_of::<Header>() + size_of::<Run>() + size_of::<Record>()) as u64;
+        let expected = |resolution: u32| {
+            let finer = u64::from(resolution).pow(2) / u64::from(FEW_CELLS).pow(2);
+            tiles * u64::from(AREA) * finer * a_cell + triangles * (3 * size_of::<Record>()) as u64
+        };
+        let is_enough = |resolution: &u32| {
+            expected(*resolution) <= bytes && u64::from(*resolution).pow(2) <= MOST_A_TRIANGLE * triangles
+        };
+        let powers = (FEW_CELLS.ilog2()..=MOST_CELLS.ilog2()).map(|power| 1 << power);
+        powers.rev().find(is_enough).unwrap_or(FEW_CELLS)
+    }
+
+    fn keep_at(&self, resolution: u32, memory: u64) -> Option<Kept<'a>> {
+        let projector = Projector::new(self.light, resolution);
+        let projected = self.projected(&projector);
+        let grid = TileGrid::new(resolution);
+        let horizon = Horizon::endless(&grid);
+        let cast = self.cast();
+        let survey =
+            Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
+        let budget = Budget::new(memory.min(MOST_BYTES) as usize);
+        let bins = self.bins(&survey, &budget)?;
+        let is_there = |tile: &u32| bins.iter().any(|bins| !bins.is_empty(*tile));
+        let stored: Vec<u32> = (0..grid.count() as u32).filter(is_there).collect();
+        let mut tiles = vec![OPEN; grid.count()];
+        for (first, &tile) in (0..).step_by(AREA as usize).zip(&stored) {
+            tiles[tile as usize] = first;
+        }
+        let lister = Lister {
+            scene: self.scene,
+            projector,
+            grid,
+            horizon: &horizon,
+            projected: &projected,
+            bins: &bins,
+            budget: &budget,
+        };
+        let lists = self.lists(&lister, &stored)?;
+        let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
+        let kept = size_of_val(&tiles[..]) + size_of_val(&projected[..]) + lists.bytes();
+        let work = Work { bytes: (kept + bin_bytes) as u64, ..lists.work(resolution) };
+        drop(bins);
+        let (certified, space, size) = (*self, LightSpace::from(self.light), self.size());
+        Some(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work })
+    }
+}
+
+impl Kept<'_> {
+    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between `points[i]` and the light.
+    pub fn occluded(&self, points: &[SurfacePoint], occluded: &mut [bool]) -> Counters {
+        (points.par_chunks(QUERIES), occluded.par_chunks_mut(QUERIES))
+            .into_par_iter()
+            .map(|(points, occluded)| self.some(points, occluded))
+            .reduce(Counters::default, sum)
+    }
+
+    /// What making it took.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Memory in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.tiles[..]) + size_of_val(&self.projected[..]) + self.lists.bytes()
+    }
+
+    fn some(&self, points: &[SurfacePoint], occluded: &mut [bool]) -> Counters {
+        let _floats = StandardFloats::new();
+        let Certified { scene, set, .. } = self.certified;
+        let (mut cells, mut depths) = (vec![0; points.len()], vec![0.0; points.len()]);
+        let chunks = cells.chunks_mut(CHUNK).zip(depths.chunks_mut(CHUNK));
+        for ((cells, depths), points) in chunks.zip(points.chunks(CHUNK)) {
+            let mut places = [0; CHUNK];
+            let places = &mut places[..points.len()];
+            Whereabouts { tiles: cells, places, depths }.find(
+                set,
+                &self.projector,
+                &self.grid,
+                scene,
+                points,
+            );
+            for (cell, &place) in cells.iter_mut().zip(&*places) {
+                let first = self.tiles.get(*cell as usize).copied().unwrap_or(OPEN);
+                *cell = if first == OPEN { OPEN } else { first + u32::from(place) };
+            }
+        }
+        let asked = Asked {
+            certified: self.certified,
+            cast: self.cast,
+            projector: &self.projector,
+            space: &self.space,
+            size: self.size,
+            projected: &self.projected,
+            lists: &self.lists,
+        };
+        asked.answer(points, &cells, &depths, occluded)
+    }
+}

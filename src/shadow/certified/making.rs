@@ -1,0 +1,118 @@
+//! Headers and lists of all cells: triangles by tile, and the tiles one after the other, on all threads.
+
+use super::bins::{Bins, Budget};
+use super::certificate::{Header, Kinds, Record, Run};
+use super::lists::{self, Lister, Part, Scratch};
+use super::survey::{self, Survey};
+use super::tiles::AREA;
+use super::{Certified, Work};
+use crate::float_environment::StandardFloats;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+/// Tiles of a task.
+const TILES: usize = 64;
+/// Cells of a task.
+const CELLS: usize = TILES * AREA as usize;
+/// Triangles that a worker takes at a time.
+const TRIANGLES: usize = 2048;
+/// Workers that keep lists of their own: each has a number for every tile.
+const MOST_WORKERS: usize = 16;
+/// Headers and lists of all cells.
+pub(super) struct Lists {
+    pub headers: Vec<Header>,
+    /// The side of each tile of cells.
+    sides: Vec<u8>,
+    runs: Vec<Run>,
+    /// Of [`CELLS`] cells each.
+    records: Vec<Vec<Record>>,
+    kinds: Kinds,
+    /// Triangles in cells.
+    entries: u64,
+}
+
+impl Lists {
+    /// The list of a cell, nearest first.
+    pub fn of(&self, cell: usize) -> &[Record] {
+        let run = self.runs[cell];
+        &self.records[cell / CELLS][run.start as usize..][..run.length as usize]
+    }
+
+    /// The side of a cell.
+    #[inline(always)]
+    pub fn side_of(&self, cell: u32) -> u32 {
+        u32::from(self.sides[(cell / AREA) as usize])
+    }
+
+    /// What making them took.
+    pub fn work(&self, resolution: u32) -> Work {
+        Work {
+            resolution,
+            cells: self.headers.len() as u64,
+            touched: self.kinds.touched,
+            once: self.kinds.once,
+            covered: self.kinds.covered,
+            entries: self.entries,
+            ..Work::default()
+        }
+    }
+
+    /// Memory in bytes.
+    pub fn bytes(&self) -> usize {
+        let records: usize = self.records.iter().map(Vec::capacity).sum();
+        size_of_val(&self.headers[..]) + size_of_val(&self.runs[..]) + records * size_of::<Record>()
+    }
+}
+
+impl Certified<'_> {
+    /// Triangles by tile, or `None` if there are too many.
+    pub(super) fn bins<'b>(&self, survey: &Survey<'_>, budget: &'b Budget) -> Option<Vec<Bins<'b>>> {
+        let count = self.scene.triangles.len();
+        let next = AtomicUsize::new(0);
+        let worker = |_| {
+            let _floats = StandardFloats::new();
+            let mut bins = Bins::new(&survey.grid, budget);
+            loop {
+                let first = next.fetch_add(TRIANGLES, Relaxed);
+                if first >= count || bins.overflowed {
+                    return bins;
+                }
+                let end = count.min(first + TRIANGLES);
+                survey::survey(self.set, survey, first as u32..end as u32, &mut bins);
+            }
+        };
+        let workers = rayon::current_num_threads().min(MOST_WORKERS);
+        let bins: Vec<_> = (0..workers).into_par_iter().with_max_len(1).map(worker).collect();
+        bins.iter().all(|bins| !bins.overflowed).then_some(bins)
+    }
+
+    /// Lists of all cells of some tiles, or `None` if they are too long.
+    pub(super) fn lists(&self, lister: &Lister<'_>, tiles: &[u32]) -> Option<Lists> {
+        let cells = tiles.len() * AREA as usize;
+        let mut headers = vec![Header::EMPTY; cells];
+        let mut runs = vec![Run::default(); cells];
+        let parts: Vec<Part> = headers
+            .par_chunks_mut(CELLS)
+            .zip(runs.par_chunks_mut(CELLS))
+            .zip(tiles.par_chunks(TILES))
+            .enumerate()
+            .map_init(Scratch::new, |scratch, (part, ((headers, runs), tiles))| {
+                let _floats = StandardFloats::new();
+                let mut of_part = Part::new(headers, runs);
+                lists::list(self.set, lister, tiles, part * CELLS, scratch, &mut of_part);
+                of_part
+            })
+            .collect();
+        if parts.iter().any(|part| part.overflowed) {
+            return None;
+        }
+        let (mut kinds, mut entries, mut records) = (Kinds::default(), 0, Vec::new());
+        for part in parts {
+            kinds += part.kinds;
+            entries += part.entries;
+            records.push(part.records);
+        }
+        let sides = tiles.iter().map(|&tile| lister.grid.corner(tile).0 as u8).collect();
+        Some(Lists { headers, sides, runs, records, kinds, entries })
+    }
+}

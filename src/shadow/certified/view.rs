@@ -1,0 +1,86 @@
+//! All queries of a view at once, with nothing made where nobody asks.
+
+use super::answer::{Asked, QUERIES, sum};
+use super::bins::{Bins, Budget};
+use super::certificate::{Header, Run};
+use super::lists::Lister;
+use super::projection::Projector;
+use super::receivers::Filed;
+use super::survey::Survey;
+use super::{Certified, Counters, MOST_BYTES, Work};
+use crate::error::Result;
+use crate::float_environment::StandardFloats;
+use crate::geometry::LightSpace;
+use crate::memory::MemoryLimit;
+use crate::visibility::SurfacePoint;
+use rayon::prelude::*;
+
+impl Certified<'_> {
+    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between `points[i]` and the light.
+    /// With fewer cells than asked for where their lists would need more memory than there may be.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a resolution outside 1 to 4096, 2^28 triangles and more, or too little memory for what does not
+    /// depend on the resolution, or for one cell along an edge.
+    pub fn occluded(&self, points: &[SurfacePoint], resolution: u32, occluded: &mut [bool]) -> Result<Work> {
+        let _floats = StandardFloats::new();
+        let of_points = points.len() * (size_of::<u32>() + size_of::<f32>() + 3);
+        let memory = self.checked(resolution, of_points)?;
+        let work = self.with_fewer_cells(resolution, |resolution| {
+            // Whatever was answered in vain is answered again.
+            self.at_resolution(points, resolution, memory, occluded)
+        })?;
+        Ok(Work { bytes: work.bytes + (of_points + self.fixed_bytes()) as u64, ..work })
+    }
+
+    /// The same, or `None` if the lists of that many cells are too long.
+    fn at_resolution(
+        &self,
+        points: &[SurfacePoint],
+        resolution: u32,
+        memory: MemoryLimit,
+        occluded: &mut [bool],
+    ) -> Option<Work> {
+        let scene = self.scene;
+        let projector = Projector::new(self.light, resolution);
+        let filed = Filed::new(self.set, &projector, scene, points);
+        let projected = self.projected(&projector);
+        let grid = filed.tiles.grid;
+        let cell_bytes = filed.tiles.cells() * (size_of::<Header>() + size_of::<Run>() + size_of::<u32>())
+            + grid.count() * 2 * size_of::<u32>();
+        let budget = Budget::new(memory.left().saturating_sub(cell_bytes as u64).min(MOST_BYTES) as usize);
+        let horizon = &filed.horizon;
+        let survey = Survey { scene, cast: self.cast(), projector, grid, horizon, projected: &projected };
+        let bins = self.bins(&survey, &budget)?;
+        let lister =
+            Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
+        let lists = self.lists(&lister, &filed.tiles.stored())?;
+        let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
+        let mut work = Work {
+            bytes: (lists.bytes() + bin_bytes + filed.tiles.cells() * size_of::<u32>()) as u64,
+            ..lists.work(resolution)
+        };
+        drop(bins);
+        let (cast, size, space) = (self.cast(), self.size(), LightSpace::from(self.light));
+        let asked = Asked {
+            certified: *self,
+            cast,
+            projector: &projector,
+            space: &space,
+            size,
+            projected: &projected,
+            lists: &lists,
+        };
+        let Filed { cells, depths, .. } = &filed;
+        work.counters = (points.par_chunks(QUERIES), cells.par_chunks(QUERIES), depths.par_chunks(QUERIES))
+            .into_par_iter()
+            .zip(occluded.par_chunks_mut(QUERIES))
+            .map(|((points, cells, depths), occluded)| {
+                let _floats = StandardFloats::new();
+                asked.answer(points, cells, depths, occluded)
+            })
+            .reduce(Counters::default, sum);
+        work.by_header = work.counters.cells - work.counters.lists;
+        Some(work)
+    }
+}
