@@ -400,3 +400,16 @@ fn squares_of_transparent_surfaces_alone_count() {
     assert_eq!((found.transparent, counts.transparent_records), (4, 4));
     assert_eq!((found.opaque, found.non_empty), (counts.records, counts.non_empty + 4));
 }
+
+#[test]
+fn what_a_steep_cone_hides_beside_a_border_of_cells_is_dark() {
+    // Seen from the light its rim is 2^-19 beyond the plane z = 4 y, which is a border between rows of cells.
+    let beyond = 2.0_f32.powi(-19);
+    let base = Vec3::new(0.0, 1.75, 6.0 + beyond);
+    let scene = of_objects(vec![with_curved(Shape::cone(base, 0.0, base + Vec3::Y * 0.25, 2.0))]);
+    let index = SceneIndex::new(&scene);
+    let buffer = LightBuffer::new(&anywhere(&scene, &index, 8)).unwrap();
+    // Twice as far away, behind half of that, and by half of it beside the rim.
+    let (answers, _) = ask(&buffer, &[1.0, 3.0].map(|n| Vec3::new(0.0, 4.0, 16.0 + n * beyond)));
+    assert_eq!(answers, [true, false]);
+}
