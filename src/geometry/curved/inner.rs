@@ -226,6 +226,25 @@ mod tests {
     }
 
     #[test]
+    fn polygons_end_a_millionth_before_the_surface() {
+        let lights = [LightPosition::At(Vec3::X * 4.0), LightPosition::Towards(Vec3::X)];
+        let shapes = [
+            Shape::sphere(Vec3::ZERO, 2.0),
+            Shape::Disc(Disc { centre: Vec3::ZERO, normal: Vec3::X, radius: 2.0 }),
+            Shape::cylinder(Vec3::NEG_Y, Vec3::Y, 2.0),
+        ];
+        for shape in shapes {
+            let is_round = !matches!(shape, Shape::Cone(_));
+            for light in lights {
+                for p in polygon(&shape, light).expect("a polygon") {
+                    let radius = if is_round { p.length() } else { p.x.hypot(p.z) };
+                    assert!((radius - 1.999_998).abs() < 1e-12, "{shape:?}: {radius}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn balls_that_are_seen_too_closely_or_are_too_flat_have_no_polygon() {
         let has = |centre: Vec3, axes: [f32; 3], light: f32| {
             let axes = [Vec3::X * axes[0], Vec3::Y * axes[1], Vec3::Z * axes[2]];

@@ -44,19 +44,19 @@ impl RayStart {
         RayStart { rounded: parameter(t), place: Place::Plane(corners) }
     }
 
-    /// Where a ray's line passes through a curved surface so; `None` if it does not.
+    /// Where a ray's line passes through a curved surface so, bounds aside; `None` if it does not, which is decided
+    /// exactly: a rounded line may miss the surface that it grazes.
     pub fn on_curved(origin: Vec3, direction: Vec3, shape: &Shape, crossing: Crossing) -> Option<RayStart> {
-        let on_line = OnLine::new(shape, &root::ray_line::<Bounded>(origin, direction));
-        let place = Place::Curved(*shape, crossing);
-        let rounded = match root::place(&on_line.surface, crossing) {
+        let in_floats = OnLine::new(shape, &root::ray_line::<Bounded>(origin, direction)).surface;
+        let meets = root::has_crossing(&in_floats, crossing).unwrap_or_else(|| {
+            let exact = OnLine::new(shape, &root::ray_line(origin, direction));
+            root::exact_place(&exact.surface, crossing).is_some()
+        });
+        let rounded = || match root::place(&in_floats, crossing) {
             Some(t) if t.error.is_finite() => parameter(t),
-            _ => {
-                let exact = OnLine::new(shape, &root::ray_line(origin, direction));
-                root::exact_place(&exact.surface, crossing)?;
-                RayParameter { value: 0.0, error: f64::INFINITY }
-            }
+            _ => RayParameter { value: 0.0, error: f64::INFINITY },
         };
-        Some(RayStart { rounded, place })
+        meets.then(|| RayStart { rounded: rounded(), place: Place::Curved(*shape, crossing) })
     }
 
     /// In f64, within its error.
@@ -81,7 +81,8 @@ fn parameter(t: Bounded) -> RayParameter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::curved::InfinitePlane;
+    use crate::geometry::curved::{Ellipsoid, InfinitePlane};
+    use crate::geometry::surd::Surd;
 
     #[test]
     fn a_ray_begins_on_a_surface_where_its_line_meets_it() {
@@ -97,5 +98,52 @@ mod tests {
             touch.exact(Vec3::X, Vec3::Z).order(&start.exact(Vec3::ZERO, Vec3::Z)),
             std::cmp::Ordering::Greater
         );
+    }
+
+    #[test]
+    fn a_ray_begins_nowhere_on_a_surface_that_its_line_misses_by_a_roundoff() {
+        let ball = Shape::sphere(Vec3::ZERO, 1.0);
+        // From beside the ball floats tell by how much; from far away only exact numbers do.
+        for z in [0.0, -1e6] {
+            for crossing in [Crossing::Entering, Crossing::Leaving] {
+                let start = |x: f32| RayStart::on_curved(Vec3::new(x, 0.0, z), Vec3::Z, &ball, crossing);
+                assert!(start(1.0_f32.next_up()).is_none(), "{z} {crossing:?}");
+                for x in [1.0_f32, 1.0_f32.next_down()] {
+                    let exact = start(x).expect("it meets it").exact(Vec3::new(x, 0.0, z), Vec3::Z);
+                    let place = root::round(&exact.numerator, &Surd::rational(exact.denominator));
+                    let half = (1.0 - f64::from(x).powi(2)).sqrt();
+                    let along = if crossing == Crossing::Entering { -half } else { half };
+                    assert!((place - (along - f64::from(z))).abs() < 1e-9, "{z} {crossing:?}: {place}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_start_whose_computation_overflows_is_known_exactly_alone() {
+        // A discriminant of 1e380.
+        let ball =
+            Shape::Ellipsoid(Ellipsoid { centre: Vec3::ZERO, axes: Vec3::AXES.map(|axis| axis * 1e38) });
+        for (crossing, sign) in [(Crossing::Entering, -1.0), (Crossing::Leaving, 1.0)] {
+            let start = RayStart::on_curved(Vec3::ZERO, Vec3::X, &ball, crossing).expect("it meets it");
+            assert_eq!((start.rounded().value, start.rounded().error), (0.0, f64::INFINITY));
+            let exact = start.exact(Vec3::ZERO, Vec3::X);
+            let place = root::round(&exact.numerator, &Surd::rational(exact.denominator));
+            assert_eq!(place, sign * f64::from(1e38_f32));
+        }
+    }
+
+    #[test]
+    fn a_ray_begins_on_a_plane_if_it_passes_through_it_to_that_side() {
+        // A direction that is parallel to it but for 2^-48.
+        let normal = Vec3::new(1.0, 1.0, 2.0_f32.powi(-24));
+        let plane = Shape::Plane(InfinitePlane { point: Vec3::ZERO, normal });
+        for (z, wanted) in [(1.0, Crossing::Leaving), (-1.0, Crossing::Entering)] {
+            let direction = Vec3::new(1.0, -1.0, z * 2.0_f32.powi(-24));
+            for crossing in [Crossing::Entering, Crossing::Leaving] {
+                let start = RayStart::on_curved(-normal, direction, &plane, crossing);
+                assert_eq!(start.is_some(), crossing == wanted, "{z} {crossing:?}");
+            }
+        }
     }
 }

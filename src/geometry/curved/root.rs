@@ -94,6 +94,15 @@ pub(super) fn place<N: Field>(q @ [c, b, a]: &[N; 3], crossing: Crossing) -> Opt
     Some(if is_far { far.quotient(&a.plus(a)) } else { c.plus(c).quotient(&far) })
 }
 
+/// Whether a line has a crossing with a polynomial, bounds aside; `None` if rounding leaves that open.
+pub(super) fn has_crossing<N: Number>(q @ [_, b, a]: &[N; 3], crossing: Crossing) -> Option<bool> {
+    if a.sign()? == Sign::Zero {
+        let wanted = if crossing == Crossing::Entering { Sign::Negative } else { Sign::Positive };
+        return Some(b.sign()? == wanted);
+    }
+    Some(discriminant(q).sign()? != Sign::Negative)
+}
+
 /// The place of a crossing, exactly; `None` if the line does not meet the surface there, bounds aside.
 pub(super) fn exact_place(q @ [c, b, a]: &[Surd; 3], crossing: Crossing) -> Option<ExactParameter> {
     let rational = |x: &Surd| x.rational_part().clone();
@@ -194,7 +203,14 @@ mod tests {
     #[test]
     fn points_on_ordinary_surfaces_need_no_exact_arithmetic() {
         let ball = Shape::sphere(Vec3::new(0.1, 0.2, 5.3), 1.7);
+        let meets = |direction: Vec3, crossing: Crossing| {
+            has_crossing(&OnLine::new(&ball, &ray_line::<Bounded>(Vec3::ZERO, direction)).surface, crossing)
+        };
         for crossing in [Crossing::Entering, Crossing::Leaving] {
+            assert_eq!(
+                [0.1, 0.5].map(|x| meets(Vec3::new(x, -0.03, 0.9), crossing)),
+                [Some(true), Some(false)]
+            );
             assert!(rounded(Vec3::ZERO, Vec3::new(0.1, -0.03, 0.9), &ball, crossing).is_some());
         }
     }

@@ -66,7 +66,8 @@ pub struct TreeStatistics {
     pub refraction_rays: u64,
     /// Rays of total reflection, counted above.
     pub total_reflections: u64,
-    /// Rays that rounding or a bent shading normal left on the wrong side of their surface; not counted above.
+    /// Rays that rounding or a bent shading normal left on the wrong side of their surface, or on a line beside it;
+    /// not counted above.
     pub dropped: u64,
     /// Points where rays of any level hit something.
     pub nodes: u64,

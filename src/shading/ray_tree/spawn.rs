@@ -28,7 +28,7 @@ pub struct Branch {
     pub kind: Kind,
     /// The share of its radiance that goes the way that its parent came, linear Rec. 709.
     pub share: [f32; 3],
-    /// The ray; `None` if rounding or a bent shading normal leaves it on the wrong side of the surface.
+    /// The ray; `None` if rounding or a bent shading normal leaves it on the wrong side of the surface, or beside it.
     pub ray: Option<Ray>,
 }
 
@@ -130,4 +130,42 @@ fn leave(scene: &Scene, point: &SurfacePoint, hit: &Hit, towards: DVec3, side: S
         }
     };
     Some(Ray { origin, direction, start })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::curved::Shape;
+    use crate::scene::{Material, ObjectInput, SceneBuilder};
+
+    #[test]
+    fn a_mirrored_ray_whose_rounded_line_misses_its_surface_is_none() {
+        // Here floats are 2^-13 apart: where a ray grazes the ball, rounding may leave its point above the tangent.
+        let centre = Vec3::new(1024.0, 0.0, 1024.0);
+        let shape = Shape::sphere(centre, 1.0);
+        let mut builder = SceneBuilder::new("a mirror");
+        let material = builder.add_material(Material { mirror: [1.0; 3], ..Material::default() });
+        let ball = ObjectInput { curved: vec![shape], material, ..ObjectInput::new("ball", vec![], vec![]) };
+        builder.add_object(ball).expect("no index");
+        let scene = builder.finish();
+        let origin = centre + Vec3::new(1.0, 0.0, -4.0);
+        let (mut met, mut missed) = (0, 0);
+        for steps in 1..200_u8 {
+            let direction = Vec3::new(f32::from(steps) * -1e-7, 0.0, 1.0);
+            let Some(hit) = shape.first_hit(origin, direction, &RayStart::origin()) else { continue };
+            let point = SurfacePoint::on_curved(&scene, origin, direction, 0, hit.crossing);
+            let [branch] = &branches(&scene, &point, &TreeRules::of_depth(2))[..] else {
+                panic!("one mirror");
+            };
+            match &branch.ray {
+                // It begins somewhere.
+                Some(ray) => {
+                    ray.start.exact(ray.origin, ray.direction);
+                    met += 1;
+                }
+                None => missed += 1,
+            }
+        }
+        assert!(met > 0 && missed > 0, "{met} and {missed}");
+    }
 }

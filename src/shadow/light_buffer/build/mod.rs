@@ -330,6 +330,7 @@ fn fill_band(
             }
         }
     }
+    debug_assert_eq!(band.headers.len(), cells, "a header for each cell that there is room for");
     band
 }
 

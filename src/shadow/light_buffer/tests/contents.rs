@@ -2,7 +2,10 @@
 
 use super::*;
 use crate::geometry::curved::{InfinitePlane, Shape, Sphere};
+use crate::geometry::footprint::Footprint;
+use crate::geometry::planes::{OrientedPlanes, oriented};
 use crate::scene::{AlphaMask, Coverage, Material, Shadowing, TextureCoordinates, Transmission, Wrap};
+use crate::shadow::light_buffer::cells::side_grid;
 use crate::shadow::{Culling, VolumeThreshold};
 
 /// A triangle across the z axis, `half` wide.
@@ -363,4 +366,50 @@ fn a_sheet_lists_a_triangle_in_the_cells_that_it_meets_at_its_depth_there() {
             }
         }
     }
+}
+
+#[test]
+fn footprints_on_a_sheet_are_no_wider_than_their_boxes() {
+    // Under this light x' is x + z / 2, from -12 to 12 over eight columns; y' is y, from -8 to 8 over eight rows.
+    let corners = [Vec3::splat(-8.0), Vec3::splat(8.0), Vec3::new(-8.0, 8.0, -8.0)];
+    let scene = of_objects(vec![triangle(corners.to_vec())]);
+    let index = SceneIndex::new(&scene);
+    let light = LightPosition::Towards(Vec3::new(-1.0, 0.0, 2.0));
+    let buffer = build_for(light, &scene, &index, 8);
+    let space = &buffer.casters.space;
+    assert_eq!(space.origin(), Vec3::ZERO);
+    let small = [Vec3::new(-1.5, 0.5, 4.0), Vec3::new(3.5, 0.6, 4.0), Vec3::new(-1.0, 3.5, 4.0)];
+    let small = oriented(light, small).expect("not edge-on").map(|p| p.as_dvec3());
+    let planes = OrientedPlanes::new(space, small);
+    let footprint = Footprint::new(&side_grid(8), &buffer.cells.frame(0), &planes).expect("on the sheet");
+    assert_eq!((footprint.columns(), footprint.rows()), ([4, 5], [4, 5]));
+}
+
+#[test]
+fn squares_of_transparent_surfaces_alone_count() {
+    let glass = Transmission { transmittance: [0.5; 3], refractive_index: 1.0 };
+    let mut builder = SceneBuilder::new("test");
+    let material = builder.add_material(Material { transmission: Some(glass), ..Material::default() });
+    builder.add_object(triangle(across(3.0, 1.0))).unwrap();
+    builder.add_object(ObjectInput { material, ..triangle(across(-3.0, 0.25)) }).unwrap();
+    let scene = builder.finish();
+    let index = SceneIndex::new(&scene);
+    let buffer = LightBuffer::new(&anywhere(&scene, &index, 4)).unwrap();
+    let (found, counts) = (buffer.occupancy(), buffer.counts());
+    // One in each of the four squares around the middle of the side that looks along -z.
+    assert_eq!((found.transparent, counts.transparent_records), (4, 4));
+    assert_eq!((found.opaque, found.non_empty), (counts.records, counts.non_empty + 4));
+}
+
+#[test]
+fn what_a_steep_cone_hides_beside_a_border_of_cells_is_dark() {
+    // Seen from the light its rim is 2^-19 beyond the plane z = 4 y, which is a border between rows of cells.
+    let beyond = 2.0_f32.powi(-19);
+    let base = Vec3::new(0.0, 1.75, 6.0 + beyond);
+    let scene = of_objects(vec![with_curved(Shape::cone(base, 0.0, base + Vec3::Y * 0.25, 2.0))]);
+    let index = SceneIndex::new(&scene);
+    let buffer = LightBuffer::new(&anywhere(&scene, &index, 8)).unwrap();
+    // Twice as far away, behind half of that, and by half of it beside the rim.
+    let (answers, _) = ask(&buffer, &[1.0, 3.0].map(|n| Vec3::new(0.0, 4.0, 16.0 + n * beyond)));
+    assert_eq!(answers, [true, false]);
 }
