@@ -187,7 +187,9 @@ fn points_that_all_face_away_are_reported() {
 fn statistics_say_what_was_built() {
     let folder = Folder::new();
     let run = validate(BLOCKS, &folder.path("out"), &["--stats", "--resolution", "17"]).done();
-    for words in ["t-buffer: 5,184 rays", "key light-buffer: ", "  resolution: 17\n", "  list items: "] {
+    for words in
+        ["t-buffer: 5,184 rays", "key light-buffer: ", "  resolution: 17\n", "  triangles in cells: "]
+    {
         assert!(run.stderr.contains(words), "{words:?} is not in {}", run.stderr);
     }
 }
@@ -205,7 +207,8 @@ fn culling_leaves_out_casters_and_changes_no_mask() {
     let folder = Folder::new();
     let image = |cull: &str| image(&folder, cull, &["--cull", cull]);
     let ((off, all), (solids, culled)) = (image("off"), image("solids"));
-    assert!(off.contains("  casters culled: 0\n"), "{off}");
+    // Without it nothing is counted that it would leave out: certified cells know nothing of it.
+    assert!(!off.contains("  casters culled: "), "{off}");
     assert!(solids.contains("  casters culled: ") && !solids.contains("  casters culled: 0\n"), "{solids}");
     assert!(all == culled, "the pictures differ");
 }
@@ -214,7 +217,7 @@ fn culling_leaves_out_casters_and_changes_no_mask() {
 fn bounding_volumes_and_object_coherence_change_no_mask() {
     let folder = Folder::new();
     let (plain, expected) = image(&folder, "plain", &[]);
-    assert!(plain.contains("  bounding-volume records: 0\n"), "{plain}");
+    assert!(!plain.contains("  bounding-volume records: "), "{plain}");
     assert!(!plain.contains(" by the last occluder"), "{plain}");
     let (grouped, picture) = image(&folder, "grouped", &["--volume-threshold", "6"]);
     assert!(!grouped.contains("  bounding-volume records: 0\n"), "{grouped}");

@@ -11,7 +11,7 @@ use super::tiles::{AREA, TileGrid};
 
 use super::making::Lists;
 use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::memory::MemoryLimit;
@@ -47,27 +47,28 @@ impl<'a> Certified<'a> {
     /// Makes cells that are good for any query.
     ///
     /// # Errors
-    /// As [`occluded`](Certified::occluded).
+    /// [`Error::Usage`] for a resolution outside 1 to 4096, 2^28 triangles and more, or more memory than there may be.
     pub fn keep(self, resolution: u32) -> Result<Kept<'a>> {
         let _floats = StandardFloats::new();
         let memory = self.checked(resolution, 0)?;
-        self.with_fewer_cells(resolution, |resolution| self.keep_at(resolution, memory.left()))
+        self.keep_at(resolution, memory)
     }
 
     /// The same with as many cells as are of use and need no more than so many bytes, if that can be.
     ///
     /// # Errors
-    /// As [`occluded`](Certified::occluded).
+    /// As [`keep`](Certified::keep), if the fewest cells need too much.
     pub fn keep_within(self, bytes: u64) -> Result<Kept<'a>> {
         let _floats = StandardFloats::new();
         let memory = self.checked(1, 0)?;
         let mut resolution = self.resolution_within(bytes, memory);
         loop {
-            let kept = self.keep(resolution)?;
-            resolution = kept.work.resolution / 2;
-            if resolution < LEAST_CELLS || kept.bytes() as u64 <= bytes {
-                return Ok(kept);
+            let kept = self.keep_at(resolution, memory);
+            let is_small = kept.as_ref().is_ok_and(|kept| kept.bytes() as u64 <= bytes);
+            if is_small || resolution <= LEAST_CELLS {
+                return kept;
             }
+            resolution /= 2;
         }
     }
 
@@ -97,7 +98,11 @@ impl<'a> Certified<'a> {
         powers.rev().find(is_enough).unwrap_or(FEW_CELLS)
     }
 
-    fn keep_at(&self, resolution: u32, memory: u64) -> Option<Kept<'a>> {
+    fn keep_at(&self, resolution: u32, memory: MemoryLimit) -> Result<Kept<'a>> {
+        let what = || format!("a light buffer of {resolution} cells along an edge");
+        let of_tiles =
+            6 * u64::from(resolution.div_ceil(8)).pow(2) * (size_of::<u32>() + size_of::<u64>()) as u64;
+        let memory = memory.beside(what(), of_tiles)?;
         let projector = Projector::new(self.light, resolution);
         let projected = self.projected(&projector);
         let grid = TileGrid::new(resolution);
@@ -105,10 +110,17 @@ impl<'a> Certified<'a> {
         let cast = self.cast();
         let survey =
             Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
-        let budget = Budget::new(memory.min(MOST_BYTES) as usize);
-        let bins = self.bins(&survey, &budget)?;
+        let too_long =
+            || Error::Usage(format!("{} needs more memory than there may be for its lists", what()));
+        let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
+        let bins = self.bins(&survey, &budget).ok_or_else(too_long)?;
         let is_there = |tile: &u32| bins.iter().any(|bins| !bins.is_empty(*tile));
         let stored: Vec<u32> = (0..grid.count() as u32).filter(is_there).collect();
+        let cells = stored.len() as u64 * u64::from(AREA);
+        let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
+        let of_cells = cells * (size_of::<Header>() + size_of::<Run>()) as u64;
+        let left = memory.beside(what(), of_cells + bin_bytes as u64)?.left();
+        let budget = Budget::new(left.min(MOST_BYTES) as usize);
         let mut tiles = vec![OPEN; grid.count()];
         for (first, &tile) in (0..).step_by(AREA as usize).zip(&stored) {
             tiles[tile as usize] = first;
@@ -122,13 +134,12 @@ impl<'a> Certified<'a> {
             bins: &bins,
             budget: &budget,
         };
-        let lists = self.lists(&lister, &stored)?;
-        let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
+        let lists = self.lists(&lister, &stored).ok_or_else(too_long)?;
         let kept = size_of_val(&tiles[..]) + size_of_val(&projected[..]) + lists.bytes();
         let work = Work { bytes: (kept + bin_bytes) as u64, ..lists.work(resolution) };
         drop(bins);
         let (certified, space, size) = (*self, LightSpace::from(self.light), self.size());
-        Some(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work })
+        Ok(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work })
     }
 }
 
