@@ -15,6 +15,7 @@ mod picture;
 mod progress;
 mod render;
 mod replay;
+mod report;
 mod reproduce;
 #[cfg(unix)]
 mod signals;
@@ -53,6 +54,8 @@ enum Command {
     Generate(generate::Args),
     /// Measure the tables of a paper again, beside what it printed
     Reproduce(reproduce::Args),
+    /// Put the maps, tables and plots of a folder of results on one page for a browser
+    Report(report::Args),
     /// Try random small scenes until testers that should agree do not, or ask a finding again
     Fuzz(fuzz::Args),
 }
@@ -78,6 +81,7 @@ pub fn run() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Generate(args) => generate::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Fuzz(args) => fuzz::run(&args),
     };
     match outcome {

@@ -22,14 +22,27 @@ pub struct Series {
 pub enum Stroke {
     /// With a mark at each.
     Solid,
-    /// Not at all: a mark at each.
-    Marks,
+    /// Not at all: a mark at each, of this shape.
+    Marks(Mark),
     /// Dotted, with hollow marks.
     Dotted,
     /// Dashed, without marks.
     Dashed,
+    /// A step down at each, without marks: the border of what is beaten in both coordinates.
+    Steps,
     /// Dashed from side to side at the height of each.
     Level,
+}
+
+/// The shape of a mark: colours alone do not reach everyone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// Filled.
+    Disc,
+    /// Filled, pointing up.
+    Triangle,
+    /// Two strokes.
+    Cross,
 }
 
 /// How values are spread.
@@ -126,9 +139,23 @@ impl Panel {
                     chart.draw_series(marks)?;
                     chart.draw_series(LineSeries::new(series.points.clone(), colour.stroke_width(2)))?
                 }
-                Stroke::Marks => {
-                    let marks = series.points.iter().map(|&point| Circle::new(point, 3, colour.filled()));
-                    chart.draw_series(marks)?
+                Stroke::Marks(mark) => {
+                    let at = || series.points.iter().copied();
+                    match mark {
+                        Mark::Disc => {
+                            chart.draw_series(at().map(|p| Circle::new(p, 4, colour.mix(0.8).filled())))?
+                        }
+                        Mark::Triangle => chart
+                            .draw_series(at().map(|p| TriangleMarker::new(p, 6, colour.mix(0.8).filled())))?,
+                        Mark::Cross => {
+                            chart.draw_series(at().map(|p| Cross::new(p, 4, colour.stroke_width(2))))?
+                        }
+                    }
+                }
+                Stroke::Steps => {
+                    let corners = series.points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
+                    let steps: Vec<_> = corners.chain(series.points.last().copied()).collect();
+                    chart.draw_series(LineSeries::new(steps, colour.stroke_width(2)))?
                 }
                 Stroke::Dotted => {
                     let marks = series.points.iter().map(|&point| TriangleMarker::new(point, 5, colour));
@@ -147,11 +174,7 @@ impl Panel {
                 }
             };
             let stroke = series.stroke;
-            drawn.label(&series.name).legend(move |(x, y)| {
-                let width = if stroke == Stroke::Solid { 3 } else { 1 };
-                let end = if stroke == Stroke::Dotted { x + 10 } else { x + 18 };
-                PathElement::new([(x, y), (end, y)], colour.stroke_width(width))
-            });
+            drawn.label(&series.name).legend(move |at| key(stroke, colour, at));
         }
         let position = match self.legend {
             Corner::UpperRight => SeriesLabelPosition::UpperRight,
@@ -165,6 +188,24 @@ impl Panel {
             .draw()
     }
 }
+
+/// What stands for a series in the legend.
+fn key<DB: DrawingBackend>(stroke: Stroke, colour: RGBColor, (x, y): (i32, i32)) -> Key<DB> {
+    let line =
+        |length: i32, width: u32| PathElement::new([(x, y), (x + length, y)], colour.stroke_width(width));
+    let middle = (x + 9, y);
+    match stroke {
+        Stroke::Marks(Mark::Disc) => Circle::new(middle, 4, colour.mix(0.8).filled()).into_dyn(),
+        Stroke::Marks(Mark::Triangle) => TriangleMarker::new(middle, 6, colour.mix(0.8).filled()).into_dyn(),
+        Stroke::Marks(Mark::Cross) => Cross::new(middle, 4, colour.stroke_width(2)).into_dyn(),
+        Stroke::Solid => line(18, 3).into_dyn(),
+        Stroke::Steps => line(18, 2).into_dyn(),
+        Stroke::Dotted => line(10, 1).into_dyn(),
+        Stroke::Dashed | Stroke::Level => line(18, 1).into_dyn(),
+    }
+}
+
+type Key<DB> = plotters::element::DynElement<'static, DB, (i32, i32)>;
 
 /// A number on an axis.
 fn label(value: f64) -> String {
