@@ -2,6 +2,7 @@
 //! a room, so has `bench`, and so has the page that shows all of them.
 
 pub mod bench;
+pub mod comparison;
 pub mod differential;
 pub mod haines_greenberg;
 pub mod hard_case_picture;

@@ -155,7 +155,7 @@ pub(super) struct Metrics {
     pub(super) mse: f64,
     pub(super) mrse: f64,
     pub(super) psnr: Option<f64>,
-    pub(super) ssim: f64,
+    pub(super) ssim: Option<f64>,
     pub(super) flip: f64,
 }
 

@@ -280,7 +280,7 @@ fn picture_metrics(metrics: &Metrics) -> Vec<Cell> {
         Cell::small(metrics.mse),
         Cell::small(metrics.mrse),
         psnr,
-        Cell::number(metrics.ssim, 6),
+        metrics.ssim.map_or_else(Cell::none, |ssim| Cell::number(ssim, 6)),
         Cell::small(metrics.flip),
     ]
 }
