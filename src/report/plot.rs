@@ -1,5 +1,6 @@
 //! Panels of plots: points of several kinds over one axis.
 
+use crate::film::grouped;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
@@ -92,7 +93,7 @@ impl Panel {
         let (low, high) = (values().fold(f64::MAX, f64::min), values().fold(0.0, f64::max));
         let mut builder = ChartBuilder::on(area);
         builder
-            .caption(&self.title, ("sans-serif", 16))
+            .caption(&self.title, ("sans-serif", 17))
             .margin(8)
             .x_label_area_size(36)
             .y_label_area_size(58);
@@ -101,12 +102,12 @@ impl Panel {
             Axes::Linear => {
                 let high = if high > 0.0 { high } else { 1.0 };
                 let chart = builder.build_cartesian_2d(0.0..x.end, 0.0..high * 1.35)?;
-                self.fill(chart, 0.0..x.end)
+                self.fill(chart, 0.0..x.end, Ticks { most: 11, label })
             }
             Axes::Logarithmic => {
                 let y = if low > high { 0.1..10.0 } else { low / 1.5..high * 1.5 * (high / low).powf(0.35) };
                 let chart = builder.build_cartesian_2d((x.start..x.end).log_scale(), y.log_scale())?;
-                self.fill(chart, x)
+                self.fill(chart, x, Ticks { most: 30, label: label_of_decade })
             }
         }
     }
@@ -115,6 +116,7 @@ impl Panel {
         &self,
         mut chart: ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
         x: Range<f64>,
+        ticks: Ticks,
     ) -> Drawn
     where
         X: Ranged<ValueType = f64> + ValueFormatter<f64>,
@@ -124,12 +126,14 @@ impl Panel {
             .configure_mesh()
             .x_desc(&self.x)
             .y_desc(&self.y)
-            .x_label_formatter(&|x| label(*x))
-            .y_label_formatter(&|y| label(*y))
+            .x_labels(ticks.most)
+            .y_labels(ticks.most)
+            .x_label_formatter(&|x| (ticks.label)(*x))
+            .y_label_formatter(&|y| (ticks.label)(*y))
             .max_light_lines(3)
             .light_line_style(RGBColor(238, 238, 238))
             .bold_line_style(RGBColor(214, 214, 214))
-            .label_style(("sans-serif", 13))
+            .label_style(("sans-serif", 14))
             .draw()?;
         for series in &self.series {
             let colour = series.colour;
@@ -143,10 +147,11 @@ impl Panel {
                     let at = || series.points.iter().copied();
                     match mark {
                         Mark::Disc => {
-                            chart.draw_series(at().map(|p| Circle::new(p, 4, colour.mix(0.8).filled())))?
+                            chart.draw_series(at().map(|p| Circle::new(p, 4, colour.mix(0.65).filled())))?
                         }
-                        Mark::Triangle => chart
-                            .draw_series(at().map(|p| TriangleMarker::new(p, 6, colour.mix(0.8).filled())))?,
+                        Mark::Triangle => chart.draw_series(
+                            at().map(|p| TriangleMarker::new(p, 6, colour.mix(0.65).filled())),
+                        )?,
                         Mark::Cross => {
                             chart.draw_series(at().map(|p| Cross::new(p, 4, colour.stroke_width(2))))?
                         }
@@ -184,7 +189,7 @@ impl Panel {
             .configure_series_labels()
             .position(position)
             .background_style(WHITE.mix(0.85))
-            .label_font(("sans-serif", 12))
+            .label_font(("sans-serif", 14))
             .draw()
     }
 }
@@ -195,8 +200,8 @@ fn key<DB: DrawingBackend>(stroke: Stroke, colour: RGBColor, (x, y): (i32, i32))
         |length: i32, width: u32| PathElement::new([(x, y), (x + length, y)], colour.stroke_width(width));
     let middle = (x + 9, y);
     match stroke {
-        Stroke::Marks(Mark::Disc) => Circle::new(middle, 4, colour.mix(0.8).filled()).into_dyn(),
-        Stroke::Marks(Mark::Triangle) => TriangleMarker::new(middle, 6, colour.mix(0.8).filled()).into_dyn(),
+        Stroke::Marks(Mark::Disc) => Circle::new(middle, 4, colour.mix(0.65).filled()).into_dyn(),
+        Stroke::Marks(Mark::Triangle) => TriangleMarker::new(middle, 6, colour.mix(0.65).filled()).into_dyn(),
         Stroke::Marks(Mark::Cross) => Cross::new(middle, 4, colour.stroke_width(2)).into_dyn(),
         Stroke::Solid => line(18, 3).into_dyn(),
         Stroke::Steps => line(18, 2).into_dyn(),
@@ -207,7 +212,35 @@ fn key<DB: DrawingBackend>(stroke: Stroke, colour: RGBColor, (x, y): (i32, i32))
 
 type Key<DB> = plotters::element::DynElement<'static, DB, (i32, i32)>;
 
+/// Lines across a panel.
+#[derive(Clone, Copy)]
+struct Ticks {
+    /// The most along an axis.
+    most: usize,
+    /// What stands at one; nothing leaves it without.
+    label: fn(f64) -> String,
+}
+
 /// A number on an axis.
 fn label(value: f64) -> String {
-    format!("{}", (value * 1e6).round() / 1e6)
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded >= 10_000.0 && rounded.fract() == 0.0 { grouped(rounded as u64) } else { format!("{rounded}") }
+}
+
+/// On a logarithmic axis the other lines of a decade are too close together for a number each.
+fn label_of_decade(value: f64) -> String {
+    let mantissa = value / libm::pow(10.0, libm::floor(libm::log10(value) + 1e-9));
+    let is_labelled = [1.0, 2.0, 5.0].iter().any(|wanted| (mantissa - wanted).abs() < 1e-6);
+    if is_labelled { label(value) } else { String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn logarithmic_axes_have_numbers_at_one_two_and_five() {
+        let labels = [0.1, 0.2, 0.3, 1.0, 4.0, 5.0, 90.0, 1000.0, 20_000.0].map(label_of_decade);
+        assert_eq!(labels, ["0.1", "0.2", "", "1", "", "5", "", "1000", "20,000"]);
+    }
 }

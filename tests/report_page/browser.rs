@@ -117,7 +117,7 @@ impl Browser {
     /// Opens a page from the disk and waits until its scripts are through.
     pub fn open(&mut self, page: &Path) {
         self.call("Page.navigate", json!({ "url": format!("file://{}", page.display()) }));
-        self.wait_for("document.documentElement.dataset.ready === 'true'");
+        self.wait_for("document.documentElement?.dataset.ready === 'true'");
     }
 
     /// Waits until an expression is true.
@@ -132,7 +132,9 @@ impl Browser {
 
     /// Waits until what was asked for has been drawn.
     pub fn drawn(&mut self) {
-        self.ask("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))");
+        self.ask(
+            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))",
+        );
     }
 
     /// A real click in the middle of an element.

@@ -12,10 +12,11 @@ const NATIVE: RGBColor = RGBColor(20, 90, 170);
 const EMBREE: RGBColor = RGBColor(205, 95, 10);
 const APPROXIMATE: RGBColor = RGBColor(120, 110, 100);
 
+/// Of Embree there are sixty points and more, so it is drawn first.
 const SIDES: [(&str, RGBColor, Mark); 3] = [
-    ("native", NATIVE, Mark::Disc),
     ("embree", EMBREE, Mark::Triangle),
     ("approximate", APPROXIMATE, Mark::Cross),
+    ("native", NATIVE, Mark::Disc),
 ];
 
 /// The front stands out against all sides.
@@ -32,14 +33,14 @@ pub fn plots(document: &Document) -> Result<Vec<Plot>> {
     let mut plots = Vec::new();
     let groups = groups(&document.rows);
     if !groups.is_empty() {
-        let panels = groups
-            .iter()
-            .flat_map(|group| [Clock::Queries, Clock::Frame].map(|c| speed_against_error(group, c)));
+        let panels = groups.iter().flat_map(|group| group_panels(group));
         plots.push(("speed-error.svg".into(), drawn("Speed against error", panels.collect())?));
     }
     for over in ["triangles", "lights", "pixels"] {
-        if let Some(plot) = growth_plot(document, over)? {
-            plots.push((format!("growth-{over}.svg"), plot));
+        let panels = growth_panels(document, over);
+        if !panels.is_empty() {
+            let title = format!("Costs against {over}");
+            plots.push((format!("growth-{over}.svg"), drawn(&title, panels)?));
         }
     }
     Ok(plots)
@@ -52,26 +53,15 @@ pub fn groups(rows: &[RowReport]) -> Vec<&[RowReport]> {
 }
 
 /// Speed against error of one group, by both clocks.
-///
-/// # Errors
-/// If it cannot be drawn, which would be a mistake here.
-pub fn group_plot(rows: &[RowReport]) -> Result<String> {
-    drawn("", [Clock::Queries, Clock::Frame].map(|clock| speed_against_error(rows, clock)).into())
+pub fn group_panels(rows: &[RowReport]) -> Vec<Ranged> {
+    [Clock::Queries, Clock::Frame].map(|clock| speed_against_error(rows, clock)).into()
 }
 
-/// Costs against what grows; none if nothing did.
-///
-/// # Errors
-/// If it cannot be drawn, which would be a mistake here.
-pub fn growth_plot(document: &Document, over: &str) -> Result<Option<String>> {
+/// Costs against what grows, a panel a scene and number of threads; none if nothing did.
+pub fn growth_panels(document: &Document, over: &str) -> Vec<Ranged> {
     let series = |step: &GrowthReport| (step.row.scene.clone(), step.row.threads);
     let steps: Vec<GrowthReport> = document.growth.iter().filter(|step| step.over == over).cloned().collect();
-    let groups: Vec<&[GrowthReport]> = steps.chunk_by(|one, other| series(one) == series(other)).collect();
-    if groups.is_empty() {
-        return Ok(None);
-    }
-    let panels = groups.iter().map(|group| growth(group)).collect();
-    drawn(&format!("Costs against {over}"), panels).map(Some)
+    steps.chunk_by(|one, other| series(one) == series(other)).map(growth).collect()
 }
 
 /// A panel, and the range of its x axis.

@@ -7,7 +7,7 @@ use super::table::{Cell, Column, Table};
 use crate::error::Result;
 use crate::film::grouped;
 use crate::report::bench::document::{Document, RatioReport, RowReport};
-use crate::report::bench::plots::{Clock, front_of, group_plot, groups, growth_plot};
+use crate::report::bench::plots::{Clock, front_of, group_panels, groups, growth_panels};
 use std::path::Path;
 
 /// One document.
@@ -32,11 +32,9 @@ impl BenchPart {
         let mut plots = Vec::new();
         let mut absent = Vec::new();
         for group in groups(&document.rows) {
-            plots.push(Plot {
-                title: format!("Time against error: {}", group_name(&group[0])),
-                svg: group_plot(group)?,
-                words: [Clock::Queries, Clock::Frame].map(|clock| front_in_words(group, clock)).join(" "),
-            });
+            let title = format!("Time against error: {}", group_name(&group[0]));
+            let words = [Clock::Queries, Clock::Frame].map(|clock| front_in_words(group, clock)).join(" ");
+            plots.push(Plot::new(title, group_panels(group), words)?);
         }
         if document.rows.is_empty() {
             absent.push("Time against error is not drawn: no rows were measured, only what grows.".into());
@@ -57,15 +55,14 @@ impl BenchPart {
             );
         }
         for over in ["triangles", "lights", "pixels"] {
-            match growth_plot(&document, over)? {
-                Some(svg) => plots.push(Plot {
-                    title: format!("Time against {over}"),
-                    svg,
-                    words: "The fastest of each side at each step, for frames and for queries.".into(),
-                }),
-                None => absent.push(format!(
+            let panels = growth_panels(&document, over);
+            if panels.is_empty() {
+                absent.push(format!(
                     "Time against {over} is not drawn: this run has none; `bench --growth {over}` measures it."
-                )),
+                ));
+            } else {
+                let words = "The fastest of each side at each step, for frames and for queries.";
+                plots.push(Plot::new(format!("Time against {over}"), panels, words)?);
             }
         }
         let mut tables = Vec::new();
@@ -81,7 +78,11 @@ impl BenchPart {
         }
         let mut fields = Fields::default();
         fields.add("lightbuffer", document.machine.version.to_string());
-        fields.machine(&document.machine).add("rounds", grouped(document.repeats.into()));
+        fields.machine(&document.machine);
+        if let (Some(version), Some(isa)) = (&document.machine.embree, &document.machine.embree_isa) {
+            fields.add("Embree", format!("{version}, {isa}"));
+        }
+        fields.add("rounds", grouped(document.repeats.into()));
         Ok(BenchPart {
             id: format!("bench-{}", number + 1),
             folder: folder.into(),

@@ -21,7 +21,7 @@ impl Fields {
         self
     }
 
-    /// All that is known of a machine.
+    /// All that is known of a machine, but for its Embree.
     pub(super) fn machine(&mut self, machine: &Machine) -> &mut Fields {
         self.add("processor", &machine.cpu).add("cores", grouped(machine.cores as u64));
         self.add("instruction sets", machine.instruction_sets.join(" "));
@@ -29,9 +29,6 @@ impl Fields {
             self.add("memory", format!("{:.1} GiB", memory as f64 / f64::from(1 << 30)));
         }
         self.add("system", format!("{}, kernel {}", machine.os, machine.kernel));
-        if let (Some(version), Some(isa)) = (&machine.embree, &machine.embree_isa) {
-            self.add("Embree", format!("{version}, {isa}"));
-        }
         self
     }
 }

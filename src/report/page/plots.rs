@@ -9,14 +9,30 @@ use plotters::style::RGBColor;
 const QUERIES: RGBColor = RGBColor(20, 90, 170);
 const BUILDING: RGBColor = RGBColor(205, 95, 10);
 
-/// An SVG picture and what it says in words.
+/// SVG pictures and what they say in words.
 #[derive(Debug, Clone, Template)]
 #[template(path = "plot.html")]
 pub(super) struct Plot {
     pub(super) title: String,
-    pub(super) svg: String,
+    /// A picture a panel, so that a narrow page has them below each other.
+    pub(super) panels: Vec<String>,
     /// For those who do not see it.
     pub(super) words: String,
+}
+
+impl Plot {
+    /// Of panels, each drawn by itself.
+    ///
+    /// # Errors
+    /// If one cannot be drawn.
+    pub(super) fn new(
+        title: impl Into<String>,
+        panels: Vec<Ranged>,
+        words: impl Into<String>,
+    ) -> Result<Plot> {
+        let panels = panels.into_iter().map(|panel| drawn("", vec![panel])).collect::<Result<_>>()?;
+        Ok(Plot { title: title.into(), panels, words: words.into() })
+    }
 }
 
 /// Light buffers of a resolution.
@@ -68,7 +84,7 @@ pub(super) fn resolution(title: &str, steps: &[AtResolution]) -> Result<Option<P
         )
     };
     let words = steps.iter().map(say).collect::<Vec<_>>().join("; ");
-    Ok(Some(Plot { title: title.into(), svg: drawn("", panels.into())?, words }))
+    Plot::new(title, panels.into(), words).map(Some)
 }
 
 fn panel(title: &str, y: &str, series: Vec<Series>) -> Ranged {

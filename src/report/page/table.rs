@@ -12,6 +12,11 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<Cell>>,
 }
 
+impl Table {
+    /// On paper there are no more rows than these; the style sheet knows the number too.
+    const MOST_PRINTED: usize = 30;
+}
+
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {

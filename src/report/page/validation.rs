@@ -217,8 +217,8 @@ fn light_caption(light: &Light) -> String {
         (light.not_receiving, "on objects without shadows"),
         (light.verdicts.touching, "touching"),
         (light.verdicts.native_wrong, "where the native tester alone is wrong"),
-        (light.verdicts.embree_wrong, "where Embree alone is"),
-        (light.verdicts.both_wrong, "where both are"),
+        (light.verdicts.embree_wrong, "where Embree alone is wrong"),
+        (light.verdicts.both_wrong, "where both are wrong"),
     ] {
         if count > 0 {
             caption += &format!(", {} {what}", grouped(count));
@@ -268,7 +268,14 @@ fn testers(caption: &str, testers: &BTreeMap<String, Tester>, metrics: &BTreeMap
         }
         row
     };
-    Table { caption: caption.into(), columns, rows: testers.iter().map(row).collect() }
+    let mut ordered: Vec<_> = testers.iter().collect();
+    ordered.sort_by_key(|(name, _)| place(name));
+    Table { caption: caption.into(), columns, rows: ordered.into_iter().map(row).collect() }
+}
+
+/// The arbiter first, then in the order of the registry.
+fn place(name: &str) -> usize {
+    crate::shadow::testers().position(|entry| entry.name == name).unwrap_or(usize::MAX)
 }
 
 fn picture_metrics(metrics: &Metrics) -> Vec<Cell> {

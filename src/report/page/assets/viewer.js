@@ -23,6 +23,7 @@ class Viewer {
     viewer.objectAt = (at) => objects[at] | (objects[pixels + at] << 8) | (objects[2 * pixels + at] << 16);
     viewer.build();
     await viewer.chooseLight(0);
+    viewer.beginAtFirstWrong();
     root.classList.add("ready");
     return viewer;
   }
@@ -92,6 +93,15 @@ class Viewer {
     if (!this.answersOf.has(light)) this.answersOf.set(light, await Answers.of(this.data, this.data.lights[light]));
     this.answers = this.answersOf.get(light);
     this.compare();
+  }
+
+  /** Nobody asks about the middle of a picture when there is something wrong elsewhere. */
+  beginAtFirstWrong() {
+    if (!this.wrong.length) return;
+    const { at } = this.wrong[0];
+    this.pixel = { x: at % this.data.width, y: Math.floor(at / this.data.width) };
+    this.sayPixel(this.pixel, false);
+    this.sayWhich();
   }
 
   name(tester) {
