@@ -39,9 +39,9 @@ PROGRAM := target/release/lightbuffer
 
 demo: build-packages
 	@$(RUN) "building lightbuffer" $(CARGO) build --release
-	@$(RUN) "validating blocks" $(PROGRAM) validate scenes/blocks.obj --size $(DEMO_SIZE) -o out/blocks
-	@$(RUN) "validating courtyard" $(PROGRAM) validate scenes/courtyard.glb --size $(DEMO_SIZE) -o out/courtyard
-	@$(RUN) "validating blocks-lights" $(PROGRAM) validate scenes/blocks-lights.toml --size $(DEMO_SIZE) -o out/blocks-lights
+	@HEARTBEAT=without-bars $(RUN) "validating blocks" $(PROGRAM) validate scenes/blocks.obj --size $(DEMO_SIZE) -o out/blocks
+	@HEARTBEAT=without-bars $(RUN) "validating courtyard" $(PROGRAM) validate scenes/courtyard.glb --size $(DEMO_SIZE) -o out/courtyard
+	@HEARTBEAT=without-bars $(RUN) "validating blocks-lights" $(PROGRAM) validate scenes/blocks-lights.toml --size $(DEMO_SIZE) -o out/blocks-lights
 	@$(RUN) "measuring courtyard" $(PROGRAM) bench scenes/courtyard.glb --size 640x360 --repeats 3 \
 		--resolution 64,128,256,512,auto -o out/bench
 	@$(PROGRAM) report out -q -o out/report.html

@@ -2,10 +2,15 @@
 # Runs a command and says every few seconds that it is still at work, so that nobody wonders.
 #
 #   with_heartbeat.sh WHAT COMMAND [ARGUMENT...]
+#
+# With HEARTBEAT=without-bars it keeps still on a terminal, where the command has bars of its own.
 set -euo pipefail
 
 what=$1
 shift
+if [ "${HEARTBEAT:-}" = without-bars ] && [ -t 2 ]; then
+    exec "$@"
+fi
 "$@" &
 command=$!
 # Ctrl-C reaches both; a signal to this script alone is handed on.

@@ -19,7 +19,8 @@ Exit codes are those of OpenImageIO's idiff, and other than those of the other c
   4  an image cannot be read, the arguments cannot be used, or a result cannot be written
 
 An image is beyond an allowance if more than the percentage of its pixels have a sample that differs by more
-than the threshold, or if any sample differs by more than the hard limit.
+than the threshold, or if any sample differs by more than the hard limit. (idiff 2.4 does not warn where no
+pixel fails; compare does.)
 
 MSE, MRSE (relMSE), PSNR, SSIM and FLIP are of R, G and B, B.exr being the reference: MSE, MRSE and FLIP as
 pbrt's imgtool defines them. MSE, MRSE and PSNR (for a peak of 1) are of linear light; SSIM and FLIP (low

@@ -2,6 +2,7 @@
 
 use crate::film::grouped;
 use plotters::coord::Shift;
+use plotters::coord::combinators::{LogCoord, WithKeyPoints};
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 use std::ops::Range;
@@ -29,7 +30,7 @@ pub enum Stroke {
     Dotted,
     /// Dashed, without marks.
     Dashed,
-    /// A step down at each, without marks: the border of what is beaten in both coordinates.
+    /// A step down at each, in a ring: the border of what is beaten in both coordinates.
     Steps,
     /// Dashed from side to side at the height of each.
     Level,
@@ -102,12 +103,12 @@ impl Panel {
             Axes::Linear => {
                 let high = if high > 0.0 { high } else { 1.0 };
                 let chart = builder.build_cartesian_2d(0.0..x.end, 0.0..high * 1.35)?;
-                self.fill(chart, 0.0..x.end, Ticks { most: 11, label })
+                self.fill(chart, 0.0..x.end)
             }
             Axes::Logarithmic => {
                 let y = if low > high { 0.1..10.0 } else { low / 1.5..high * 1.5 * (high / low).powf(0.35) };
-                let chart = builder.build_cartesian_2d((x.start..x.end).log_scale(), y.log_scale())?;
-                self.fill(chart, x, Ticks { most: 30, label: label_of_decade })
+                let chart = builder.build_cartesian_2d(by_decades(x.clone()), by_decades(y))?;
+                self.fill(chart, x)
             }
         }
     }
@@ -116,7 +117,6 @@ impl Panel {
         &self,
         mut chart: ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
         x: Range<f64>,
-        ticks: Ticks,
     ) -> Drawn
     where
         X: Ranged<ValueType = f64> + ValueFormatter<f64>,
@@ -126,10 +126,8 @@ impl Panel {
             .configure_mesh()
             .x_desc(&self.x)
             .y_desc(&self.y)
-            .x_labels(ticks.most)
-            .y_labels(ticks.most)
-            .x_label_formatter(&|x| (ticks.label)(*x))
-            .y_label_formatter(&|y| (ticks.label)(*y))
+            .x_label_formatter(&|x| label(*x))
+            .y_label_formatter(&|y| label(*y))
             .max_light_lines(3)
             .light_line_style(RGBColor(238, 238, 238))
             .bold_line_style(RGBColor(214, 214, 214))
@@ -160,6 +158,8 @@ impl Panel {
                 Stroke::Steps => {
                     let corners = series.points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
                     let steps: Vec<_> = corners.chain(series.points.last().copied()).collect();
+                    let rings = series.points.iter().map(|&p| Circle::new(p, 8, colour.stroke_width(2)));
+                    chart.draw_series(rings)?;
                     chart.draw_series(LineSeries::new(steps, colour.stroke_width(2)))?
                 }
                 Stroke::Dotted => {
@@ -212,26 +212,36 @@ fn key<DB: DrawingBackend>(stroke: Stroke, colour: RGBColor, (x, y): (i32, i32))
 
 type Key<DB> = plotters::element::DynElement<'static, DB, (i32, i32)>;
 
-/// Lines across a panel.
-#[derive(Clone, Copy)]
-struct Ticks {
-    /// The most along an axis.
-    most: usize,
-    /// What stands at one; nothing leaves it without.
-    label: fn(f64) -> String,
-}
-
 /// A number on an axis.
 fn label(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded >= 10_000.0 && rounded.fract() == 0.0 { grouped(rounded as u64) } else { format!("{rounded}") }
 }
 
-/// On a logarithmic axis the other lines of a decade are too close together for a number each.
-fn label_of_decade(value: f64) -> String {
-    let mantissa = value / libm::pow(10.0, libm::floor(libm::log10(value) + 1e-9));
-    let is_labelled = [1.0, 2.0, 5.0].iter().any(|wanted| (mantissa - wanted).abs() < 1e-6);
-    if is_labelled { label(value) } else { String::new() }
+/// A logarithmic axis whose lines and numbers stand at one, two and five times powers of ten, of many decades at those
+/// alone; fine lines stand at the others.
+fn by_decades(range: Range<f64>) -> WithKeyPoints<LogCoord<f64>> {
+    const FEW_DECADES: f64 = 3.5;
+    let decades = libm::log10(range.end / range.start);
+    let with_number: &[u32] = if decades < FEW_DECADES { &[1, 2, 5] } else { &[1] };
+    let (numbers, others) =
+        lines(&range).into_iter().partition::<Vec<_>, _>(|line| with_number.contains(&line.0));
+    let places = |lines: Vec<(u32, f64)>| lines.into_iter().map(|line| line.1).collect::<Vec<_>>();
+    let axis: LogCoord<f64> = range.log_scale().into();
+    axis.with_key_points(places(numbers)).with_light_points(places(others))
+}
+
+/// One to nine times powers of ten within a range, with that digit.
+fn lines(range: &Range<f64>) -> Vec<(u32, f64)> {
+    let power = |value: f64| libm::floor(libm::log10(value)) as i32;
+    let line = |exponent: i32, digit: u32| {
+        // Divided where that is exact: 0.2 and not 0.2 and a bit.
+        let ten = libm::pow(10.0, f64::from(exponent.abs()));
+        (digit, if exponent < 0 { f64::from(digit) / ten } else { f64::from(digit) * ten })
+    };
+    let all =
+        (power(range.start)..=power(range.end)).flat_map(|exponent| (1..=9).map(move |d| line(exponent, d)));
+    all.filter(|line| range.contains(&line.1)).collect()
 }
 
 #[cfg(test)]
@@ -239,8 +249,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn logarithmic_axes_have_numbers_at_one_two_and_five() {
-        let labels = [0.1, 0.2, 0.3, 1.0, 4.0, 5.0, 90.0, 1000.0, 20_000.0].map(label_of_decade);
-        assert_eq!(labels, ["0.1", "0.2", "", "1", "", "5", "", "1000", "20,000"]);
+    fn logarithmic_axes_have_lines_at_one_to_nine_of_each_decade_in_range() {
+        let places: Vec<f64> = lines(&(0.25..4.0)).into_iter().map(|line| line.1).collect();
+        assert_eq!(places, [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 2.0, 3.0]);
+        assert_eq!(lines(&(14.0..31.0)), [(2, 20.0), (3, 30.0)]);
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([0.1, 1.0, 5000.0, 20_000.0].map(label), ["0.1", "1", "5000", "20,000"]);
     }
 }

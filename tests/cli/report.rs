@@ -66,6 +66,11 @@ fn what_cannot_be_shown_is_one_line_and_no_page() {
     folder.write("out/image.exr", "no image");
     assert!(report(&folder.path("out"), &page).refused().contains("image.exr: "));
     assert!(!page.exists());
+    // Without the image there are still tables.
+    std::fs::remove_file(folder.path("out/image.exr")).unwrap();
+    report(&folder.path("out"), &page).done();
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains("The maps are not drawn") && html.contains("light-buffer"));
 }
 
 /// What a file says is text on the page, never a part of it.

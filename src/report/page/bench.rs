@@ -95,7 +95,8 @@ impl BenchPart {
 }
 
 fn group_name(row: &RowReport) -> String {
-    format!("{}, {} lights, {} × {}, {} threads", row.scene, row.lights, row.width, row.height, row.threads)
+    let lights = if row.lights == 1 { "1 light".into() } else { format!("{} lights", row.lights) };
+    format!("{}, {lights}, {} × {}, threads: {}", row.scene, row.width, row.height, row.threads)
 }
 
 fn front_in_words(rows: &[RowReport], clock: Clock) -> String {

@@ -19,8 +19,10 @@ pub(super) struct ValidationPart {
     pub(super) verdict: String,
     pub(super) fields: Fields,
     pub(super) tables: Vec<Table>,
-    /// None for the hard cases, which have no image.
+    /// None for the hard cases, which have no image, and where the image is not there.
     pub(super) viewer: Option<Viewer>,
+    /// Why there are no maps.
+    pub(super) absent: Option<String>,
     counts: Counts,
     size: String,
     lights: u64,
@@ -43,10 +45,14 @@ impl ValidationPart {
     pub(super) fn read(number: usize, folder: &str, path: &Path) -> Result<ValidationPart> {
         let document: Validation = documents::read(path)?;
         let id = format!("scene-{}", number + 1);
-        let viewer = match document.cases.is_empty() {
+        let is_there = path.with_file_name("image.exr").exists();
+        let viewer = match document.cases.is_empty() && is_there {
             true => Some(Viewer::read(id.clone(), path, &document)?),
             false => None,
         };
+        let absent = (document.cases.is_empty() && !is_there).then(|| {
+            "The maps are not drawn: image.exr is not beside this validate.json; `validate -o DIR` writes both.".into()
+        });
         let counts = counts(&document);
         Ok(ValidationPart {
             scene: document.scene.clone(),
@@ -55,6 +61,7 @@ impl ValidationPart {
             fields: fields(&document, viewer.as_ref()),
             tables: tables(&id, &document, viewer.is_some()),
             viewer,
+            absent,
             counts,
             size: match document.width {
                 0 => "no image".into(),
@@ -278,10 +285,13 @@ fn place(name: &str) -> usize {
     crate::shadow::testers().position(|entry| entry.name == name).unwrap_or(usize::MAX)
 }
 
+/// Above any that there are: what has no difference is the best.
+const INFINITE_DECIBELS: f64 = 1e6;
+
 fn picture_metrics(metrics: &Metrics) -> Vec<Cell> {
     let psnr = match metrics.psnr {
         Some(psnr) => Cell::number(psnr, 1),
-        None => Cell { sort: Some(f64::INFINITY), ..Cell::words("∞") },
+        None => Cell { sort: Some(INFINITE_DECIBELS), ..Cell::words("∞") },
     };
     vec![
         Cell::small(metrics.mse),

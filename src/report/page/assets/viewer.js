@@ -256,8 +256,7 @@ class Viewer {
     for (const button of this.root.querySelectorAll(".previous, .next")) button.disabled = !this.wrong.length;
   }
 
-  command() {
-    const { x, y } = this.pixel;
+  command({ x, y } = this.pixel) {
     return `${this.data.replay} --pixel ${x},${y} --light ${this.data.quoted[this.light]}`;
   }
 
@@ -294,7 +293,7 @@ class Viewer {
       entry.className = wrong ? "wrong" : "";
       return entry;
     }));
-    this.find(".replay code").textContent = this.command();
+    this.find(".replay code").textContent = this.command(pixel);
   }
 
   /** Pointers, wheel and keys of a panel. */
