@@ -74,7 +74,7 @@ fn compare_ends_as_idiff_does() {
     let missing = folder.path("missing.exr");
 
     // What `idiff` and what `compare` ends with. The former never warns where no pixel fails; that is not what its
-    // manual says, and would hide what one asked to be warned of.
+    // manual says, and would hide what one asked to be warned of. Nor does 2.4 tell another size from a failure.
     let cases: [(&Path, &[&str], [i32; 2]); 10] = [
         (&original, &[], [0, 0]),
         (&other, &[], [2, 2]),
@@ -85,7 +85,7 @@ fn compare_ends_as_idiff_does() {
         (&other, &["--fail", "0.005", "--failpercent", "1", "--hardfail", "0.4", "--warn", "1"], [2, 2]),
         (&other, &["--fail", "0.005", "--failpercent", "1", "--warn", "1", "--hardwarn", "0.4"], [1, 1]),
         (&other, &["--fail", "1"], [0, 1]),
-        (&smaller, &[], [3, 3]),
+        (&smaller, &[], [2, 3]),
     ];
     for (path, options, [theirs_wanted, ours_wanted]) in cases {
         let one_dash: Vec<String> = options.iter().map(|option| option.replace("--", "-")).collect();

@@ -90,12 +90,16 @@ fn ask_pixel(browser: &mut Browser, x: usize, y: usize) {
     browser.drawn();
 }
 
+/// What is read is a copy of the canvas `c`: reading the page's own would change how the browser keeps it.
+const COPY: &str = "const copy = new OffscreenCanvas(c.width, c.height).getContext('2d', { willReadFrequently: true }); \
+                    copy.drawImage(c, 0, 0);";
+
 /// The colour in the middle of a pixel of the image, as a map shows it.
 fn colour(browser: &mut Browser, panel: &str, x: usize, y: usize) -> Value {
     let canvas = json!(maps(&format!("[data-panel={panel}] canvas")));
     browser.ask(&format!(
-        "(() => {{ const c = document.querySelector({canvas}); const s = c.width / {WIDTH}; \
-         return [...c.getContext('2d').getImageData(({x} + 0.5) * s, ({y} + 0.5) * s, 1, 1).data].slice(0, 3); }})()"
+        "(() => {{ const c = document.querySelector({canvas}); const s = c.width / {WIDTH}; {COPY} \
+         return [...copy.getImageData(({x} + 0.5) * s, ({y} + 0.5) * s, 1, 1).data].slice(0, 3); }})()"
     ))
 }
 
@@ -103,8 +107,8 @@ fn colour(browser: &mut Browser, panel: &str, x: usize, y: usize) -> Value {
 fn fingerprint(browser: &mut Browser, panel: &str) -> f64 {
     let canvas = json!(maps(&format!("[data-panel={panel}] canvas")));
     let sum = browser.ask(&format!(
-        "(() => {{ const c = document.querySelector({canvas}); \
-         return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.reduce((s, v, i) => (s * 31 + v) % 1e9, 7); }})()"
+        "(() => {{ const c = document.querySelector({canvas}); {COPY} \
+         return copy.getImageData(0, 0, c.width, c.height).data.reduce((s, v) => (s * 31 + v) % 1e9, 7); }})()"
     ));
     sum.as_f64().unwrap()
 }
