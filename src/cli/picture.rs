@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::film::{CategoryMap, ImageMetrics, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
-use crate::shading::{Textures, shade_picture};
+use crate::shading::{ShadedPoint, Textures, shade_picture};
 use crate::shadow::shadow_buffer::{self, ShadowBufferSettings};
 use crate::shadow::{Basis, Crossings, Queries};
 use crate::verdict::{LightVerdict, TesterResult, TesterRun};
@@ -85,6 +85,10 @@ pub fn runs_of<'v>(
         Error::Usage(format!("{tester} would need more than 2e11 tests here; choose another --shadow"))
     })
 }
+
+/// Bytes of a pixel while pictures are held against each other: two of them with their shading, and what SSIM and FLIP make
+/// of both.
+pub const METRICS_BYTES: u64 = 2 * (15 * 4 + size_of::<ShadedPoint>() as u64) + 2 * (24 + 12 + 10 * 4);
 
 /// The picture by the shadows of each tester that was asked at every light, against that by the truth's. Whoever is right
 /// everywhere has the same picture, which need not be made.

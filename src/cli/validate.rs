@@ -96,6 +96,8 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let answers = view.size.pixels() as u64 * entries.len() as u64;
     let limit = limit.beside(format!("the answers of {} testers", entries.len()), answers)?;
     let seen = view.look(LookRules::usual(args.trees.depth), limit)?;
+    // When all testers are gone; so it need not be added to what they need.
+    seen.memory.check("pictures to compare", view.size.pixels() as u64 * picture::METRICS_BYTES)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
