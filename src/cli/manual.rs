@@ -50,7 +50,8 @@ pub fn manual(args: &ManualArgs) -> Result<Outcome> {
     };
     let mut files = FileSet::new();
     files.folder(folder)?;
-    for command in [&command].into_iter().chain(command.get_subcommands()) {
+    let commands = command.get_subcommands().filter(|command| command.get_name() != "help");
+    for command in [&command].into_iter().chain(commands) {
         let name = command.get_display_name().unwrap_or(command.get_name()).to_string();
         let path = folder.join(format!("{name}.1"));
         files.write(&path, |file| file.write_all(&rendered(command)?))?;

@@ -30,6 +30,7 @@ fn the_manual_has_a_page_for_every_command() {
     for page in ["lightbuffer.1", "lightbuffer-validate.1", "lightbuffer-report.1", "lightbuffer-compare.1"] {
         assert!(found.iter().any(|name| name == page), "{page} is not in {found:?}");
     }
+    assert!(!found.iter().any(|name| name == "lightbuffer-help.1"), "{found:?}");
     let page = std::fs::read_to_string(pages.join("lightbuffer-compare.1")).unwrap();
     assert!(
         page.contains(".TH lightbuffer\\-compare 1") || page.contains(".TH lightbuffer-compare 1"),
