@@ -31,6 +31,7 @@ fn one_file_holds_everything_and_depends_on_nothing() {
 }
 
 #[test]
+#[cfg(feature = "embree")]
 fn hard_cases_have_a_table_and_no_maps() {
     let folder = Folder::new();
     let out = folder.path("out");
