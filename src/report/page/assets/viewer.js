@@ -61,9 +61,10 @@ class Viewer {
     other.append(...rivals.map((name) => option(name)), option(data.truth, "the truth"));
     const first = rivals.includes(data.shadow) ? data.shadow : rivals[0] ?? data.truth;
     if (!rivals.length) tester.append(option(data.truth, "the truth"));
-    const embree = rivals.includes("embree") && first !== "embree" ? "embree" : data.truth;
+    // Embree as it is judged, else in any mode that was asked.
+    const embree = ["embree", ...rivals].find((name) => name.startsWith("embree") && rivals.includes(name) && name !== first);
     tester.value = data.testers.indexOf(first);
-    other.value = data.testers.indexOf(embree);
+    other.value = data.testers.indexOf(embree ?? data.truth);
   }
 
   listen() {
