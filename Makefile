@@ -1,6 +1,6 @@
 # Set-up and the main jobs. Each target is complete on a fresh Debian 12 machine that has Rust, gcc and make.
 #
-#   make demo                      build, then validate three scenes of scenes/; the results are in out/
+#   make demo                      build, validate three scenes of scenes/, bench one, and put all on one page, out/report.html
 #   make test                      every test
 #   make test-scenes SCENES=DIR    the tests over scenes that are not part of this repository
 #   make lint                      formatting and warnings
@@ -10,17 +10,20 @@
 #   make fuzz RUNS=1200000        every loader under libFuzzer, with so many executions of each
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make mutants MUTANTS=...       cargo-mutants over geometry, light buffer and verdicts; MUTANTS are more of its options
+#   make deny                      licences, sources and known holes of all dependencies
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
 
 CARGO ?= cargo
 DEMO_SIZE := 1280x720
+# Brute force would take as long as all others together.
+DEMO_TESTERS := bounding-volumes,light-buffer,irregular-z-buffer,shadow-buffer,embree,embree-fast
 
 # A fresh rustup is not in PATH before the next login.
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages demo test test-scenes lint aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants clean-demo
+.PHONY: help packages build-packages demo test test-scenes lint deny aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -28,12 +31,25 @@ help:
 packages:
 	@bash scripts/packages.sh
 
-demo: packages
-	$(CARGO) build --release
-	target/release/lightbuffer validate scenes/blocks.obj --size $(DEMO_SIZE) -o out/blocks
-	target/release/lightbuffer validate scenes/courtyard.glb --size $(DEMO_SIZE) -o out/courtyard
-	target/release/lightbuffer validate scenes/blocks-lights.toml --size $(DEMO_SIZE) -o out/blocks-lights
-	@echo "Images, difference maps and verdicts are in $(CURDIR)/out/: blocks, courtyard, blocks-lights"
+# Without what only tests need.
+build-packages:
+	@bash scripts/packages.sh --build-only
+
+# Neither a compiler nor an arbiter at work says much by itself.
+RUN := bash scripts/with_heartbeat.sh
+PROGRAM := target/release/lightbuffer
+
+demo: build-packages
+	@$(RUN) "building lightbuffer" $(CARGO) build --release
+	@HEARTBEAT=without-bars $(RUN) "validating blocks" $(PROGRAM) validate scenes/blocks.obj --size $(DEMO_SIZE) -o out/blocks
+	@HEARTBEAT=without-bars $(RUN) "validating courtyard" $(PROGRAM) validate scenes/courtyard.glb --size $(DEMO_SIZE) \
+		--testers $(DEMO_TESTERS) -o out/courtyard
+	@HEARTBEAT=without-bars $(RUN) "validating blocks-lights" $(PROGRAM) validate scenes/blocks-lights.toml --size $(DEMO_SIZE) -o out/blocks-lights
+	@$(RUN) "measuring courtyard" $(PROGRAM) bench scenes/courtyard.glb --size 480x270 --repeats 3 \
+		--finalists 2 --resolution 64,128,256,512 -o out/bench
+	@$(PROGRAM) report out -q -o out/report.html
+	@echo "Images, difference maps and verdicts are in $(CURDIR)/out/: blocks, courtyard, blocks-lights, bench"
+	@echo "All of it on one page, for a browser: $(CURDIR)/out/report.html"
 
 # The library's own tests run in debug too: overflow checks and assertions see what release does not. So does the
 # one that holds the masks of both profiles against each other.
@@ -65,6 +81,10 @@ hard-cases: packages
 	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --release --test hard_cases -- --test-threads=1
 	HARD_CASES_EVERY_RESOLUTION=1 $(CARGO) test --test hard_cases -- --test-threads=1
 
+# Not a part of `make lint`: building cargo-deny takes longer than all tests, and its database of holes needs a network.
+deny:
+	@bash scripts/deny.sh
+
 SECONDS ?= 60
 differential-fuzzing: packages
 	$(CARGO) run --release -- fuzz --seconds $(SECONDS) -o out/findings
@@ -86,4 +106,4 @@ mutants: packages
 		$(CARGO) mutants --output out $(MUTANTS)
 
 clean-demo:
-	rm -rf out/blocks out/courtyard out/blocks-lights
+	rm -rf out/blocks out/courtyard out/blocks-lights out/bench out/report.html

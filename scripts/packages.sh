@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building and testing need and that are missing. Asks nothing, and does
-# nothing when nothing is missing.
+# nothing when nothing is missing. With --build-only it leaves out what only tests need.
 set -euo pipefail
 
-# libembree-dev: the oracle. libclang-dev: bindgen reads Embree's header with it. openexr: its exrheader
-# checks our files in the tests.
-packages=(libembree-dev libclang-dev openexr)
+# libembree-dev: the oracle. libclang-dev: bindgen reads Embree's header with it.
+packages=(libembree-dev libclang-dev)
+# openexr and openimageio-tools: their exrheader, idiff and oiiotool read our files in the tests. chromium: opens the
+# report page there.
+if [ "${1:-}" != --build-only ]; then
+    packages+=(openexr openimageio-tools chromium)
+fi
 
 if ! command -v cargo >/dev/null; then
     echo "Rust is missing; get it with: curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y" >&2
@@ -13,7 +17,7 @@ if ! command -v cargo >/dev/null; then
 fi
 
 if ! command -v dpkg-query >/dev/null; then
-    echo "This is not Debian: see that Embree 3 or 4 and libclang (with headers) and exrheader are installed." >&2
+    echo "This is not Debian: see that Embree 3 or 4 and libclang (with headers) and exrheader, idiff, oiiotool and chromium are installed." >&2
     exit 0
 fi
 

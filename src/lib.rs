@@ -19,13 +19,13 @@
 //! | [`visibility`] | [`visibility::t_buffer`], [`visibility::classical`], [`visibility::hierarchy`], [`SurfacePoint`] |
 //! | [`shadow`] | [`ShadowTester`], the registry, one room a tester |
 //! | [`shading`] | ambient, Lambert and Phong, textures, ray trees |
-//! | [`film`] | image planes, OpenEXR, PNG, false colour |
+//! | [`film`] | image planes, OpenEXR, PNG, false colour, differences and metrics of images |
 //! | [`float_environment`] | exact signs in threads that flush denormals |
 //! | [`memory`] | the limit that is checked before memory is asked for |
 //! | [`measure`] | running and timing testers |
 //! | [`verdict`] | masks against the truth |
 //! | [`hard_cases`] | 47 small cases whose answers are known, for all testers |
-//! | [`report`] | JSON, tables, image channels |
+//! | [`report`] | JSON, tables, image channels, the page |
 //! | [`cli`] | one file a command |
 //!
 //! # Words

@@ -6,6 +6,7 @@ use super::{Outcome, output};
 use crate::error::{Error, Result};
 use crate::film::FileSet;
 use crate::hard_cases::{self, judge_situations};
+use crate::measure::bench::Machine;
 use crate::report::hard_case_picture::{most_telling, picture};
 use crate::report::hard_cases::{CaseReport, arbiter_wrong, case_table, reports};
 use crate::report::validation::{Totals, Validation};
@@ -13,6 +14,7 @@ use crate::scene::formats::BUILTIN_PREFIX;
 use crate::scene::procedural::HARD_CASES;
 use crate::shading::USUAL_DEPTH;
 use crate::shadow::{TesterEntry, shadow_buffer};
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 
@@ -54,6 +56,9 @@ pub fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Message
     }
     let report = Validation {
         epsilon_sweep: Vec::new(),
+        image_metrics: BTreeMap::new(),
+        machine: Machine::here(),
+        replay: Vec::new(),
         scene: format!("{BUILTIN_PREFIX}{HARD_CASES}"),
         width: 0,
         height: 0,

@@ -1,20 +1,25 @@
 //! The command line: one file a command.
 //!
 //! Results go to standard output, progress and messages to standard error. Exit code 0 means done and
-//! right, 1 done and a native answer is wrong, 2 usage or input error. Signals: `signals.rs`.
+//! right, 1 done and a native answer is wrong, 2 usage or input error; those of `compare` are in its `--help`. Signals:
+//! `signals.rs`.
 
+mod again;
 mod bench;
+mod compare;
 mod counts;
 mod fuzz;
 mod generate;
 mod hard_cases;
 mod info;
+mod manual;
 mod options;
 mod output;
 mod picture;
 mod progress;
 mod render;
 mod replay;
+mod report;
 mod reproduce;
 #[cfg(unix)]
 mod signals;
@@ -34,7 +39,8 @@ struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done and right; 1 done, but an answer of a native tester is wrong; \
-                          2 usage or input error, or a result cannot be written: nothing is. A signal that ends a \
+                          2 usage or input error, or a result cannot be written: nothing is. `compare` has \
+                          others, which its --help lists. A signal that ends a \
                           run is what the process dies of, and leaves no file half written.";
 
 #[derive(Debug, Subcommand)]
@@ -53,8 +59,16 @@ enum Command {
     Generate(generate::Args),
     /// Measure the tables of a paper again, beside what it printed
     Reproduce(reproduce::Args),
+    /// Compare two OpenEXR images channel by channel, with exit codes of its own
+    Compare(compare::Args),
+    /// Put the maps, tables and plots of a folder of results on one page for a browser
+    Report(report::Args),
     /// Try random small scenes until testers that should agree do not, or ask a finding again
     Fuzz(fuzz::Args),
+    /// Write completions of commands and options for a shell to standard output
+    Completions(manual::CompletionArgs),
+    /// Write the manual in the form that man reads
+    Manual(manual::ManualArgs),
 }
 
 /// How a command that ran to its end came out.
@@ -62,14 +76,29 @@ enum Command {
 enum Outcome {
     Right,
     NativeWrong,
+    /// Of `compare`, which has exit codes of its own.
+    Compared(u8),
+}
+
+impl Outcome {
+    fn exit_code(self) -> u8 {
+        match self {
+            Outcome::Right => 0,
+            Outcome::NativeWrong => 1,
+            Outcome::Compared(code) => code,
+        }
+    }
 }
 
 /// Parses the arguments, runs the command and returns the exit code.
 pub fn run() -> ExitCode {
-    // Usage errors exit with 2 here, help and version with 0.
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refused(&error),
+    };
     #[cfg(unix)]
     signals::watch();
+    let failed = if matches!(cli.command, Command::Compare(_)) { compare::CANNOT_COMPARE } else { 2 };
     let outcome = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Validate(args) => validate::run(&args),
@@ -78,14 +107,29 @@ pub fn run() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Generate(args) => generate::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Fuzz(args) => fuzz::run(&args),
+        Command::Completions(args) => manual::completions(&args),
+        Command::Manual(args) => manual::manual(&args),
     };
     match outcome {
-        Ok(Outcome::Right) => ExitCode::SUCCESS,
-        Ok(Outcome::NativeWrong) => ExitCode::from(1),
+        Ok(outcome) => ExitCode::from(outcome.exit_code()),
         Err(error) => {
-            progress::print_error(&format!("lightbuffer: {error}\n"));
-            ExitCode::from(2)
+            progress::print_failure(&error);
+            ExitCode::from(failed)
         }
+    }
+}
+
+/// Prints help, the version, or why the arguments cannot be used; only the last is an error.
+fn refused(error: &clap::Error) -> ExitCode {
+    // Nobody is there to be told that it cannot be printed.
+    let _ = error.print();
+    let is_comparison = std::env::args_os().nth(1).is_some_and(|command| command == "compare");
+    match (error.use_stderr(), is_comparison) {
+        (false, _) => ExitCode::SUCCESS,
+        (true, true) => ExitCode::from(compare::CANNOT_COMPARE),
+        (true, false) => ExitCode::from(2),
     }
 }

@@ -269,6 +269,28 @@ impl RunOptions {
         }
     }
 
+    /// Tells those options that decide answers and are not as usual, by name and value.
+    pub fn answer_options(&self, option: &mut impl FnMut(&str, Option<String>)) {
+        let usual = ShadowBufferSettings::default();
+        let settings = self.shadow_buffer();
+        if self.embree_epsilon != EmbreeSettings::default().epsilon {
+            option("embree-epsilon", Some(format!("{:?}", self.embree_epsilon)));
+        }
+        if (settings.rows, settings.columns) != (usual.rows, usual.columns) {
+            option("shadow-buffer-size", Some(format!("{}x{}", settings.rows, settings.columns)));
+        }
+        if settings.lookup != usual.lookup {
+            let lookup = if settings.lookup == Lookup::Identity { "identity" } else { "depth" };
+            option("shadow-buffer-lookup", Some(lookup.into()));
+        }
+        if settings.filter != usual.filter {
+            option("shadow-buffer-filter", Some(settings.filter.cells().to_string()));
+        }
+        if let Some(bias) = self.shadow_buffer_bias {
+            option("shadow-buffer-bias", Some(format!("{bias:?}")));
+        }
+    }
+
     /// The most memory that anything may need.
     pub fn memory_limit(&self) -> MemoryLimit {
         self.memory_limit.unwrap_or_else(MemoryLimit::of_this_machine)

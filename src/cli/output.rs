@@ -12,13 +12,18 @@ use std::path::{Path, PathBuf};
 /// Standard output, as the name of a file.
 const STANDARD_OUTPUT: &str = "-";
 
+/// Whether a path is the name of standard output.
+pub fn is_standard_output(path: &Path) -> bool {
+    path == Path::new(STANDARD_OUTPUT)
+}
+
 /// Finds out before long work whether a file could be written: its folder must be there and have room for one, and no
 /// folder may have its name. The name `-` is standard output.
 ///
 /// # Errors
 /// What writing would report at the end.
 pub fn expect_writable(path: &Path) -> Result<()> {
-    if path == Path::new(STANDARD_OUTPUT) {
+    if is_standard_output(path) {
         return Ok(());
     }
     let refused = |source| Error::io(path, "write", source);

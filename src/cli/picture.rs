@@ -2,14 +2,15 @@
 
 use super::view::{Seen, View};
 use crate::error::{Error, Result};
-use crate::film::{CategoryMap, ImagePlanes};
+use crate::film::{CategoryMap, ImageMetrics, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
-use crate::shading::{Textures, shade_picture};
+use crate::shading::{ShadedPoint, Textures, shade_picture};
 use crate::shadow::shadow_buffer::{self, ShadowBufferSettings};
-use crate::shadow::{Crossings, Queries};
-use crate::verdict::{LightVerdict, TesterRun};
+use crate::shadow::{Basis, Crossings, Queries};
+use crate::verdict::{LightVerdict, TesterResult, TesterRun};
 use crate::visibility::VisibleSurfaces;
+use std::collections::BTreeMap;
 
 /// A preview and the word for it in its file name.
 pub struct Preview {
@@ -83,6 +84,55 @@ pub fn runs_of<'v>(
     judged.iter().map(run).collect::<Option<Vec<_>>>().ok_or_else(|| {
         Error::Usage(format!("{tester} would need more than 2e11 tests here; choose another --shadow"))
     })
+}
+
+/// Bytes of a pixel while pictures are held against each other: two of them with their shading, and what SSIM and FLIP make
+/// of both.
+pub const METRICS_BYTES: u64 = 2 * (15 * 4 + size_of::<ShadedPoint>() as u64) + 2 * (24 + 12 + 10 * 4);
+
+/// The picture by the shadows of each tester that was asked at every light, against that by the truth's. Whoever is right
+/// everywhere has the same picture, which need not be made.
+///
+/// # Errors
+/// Never for the points of a view.
+pub fn metrics(
+    view: &View,
+    seen: &Seen,
+    judged: &[(Queries, LightVerdict)],
+) -> Result<BTreeMap<&'static str, ImageMetrics>> {
+    let by = |tester: &str| {
+        let runs = runs_of(judged, tester)?;
+        let lighting: Vec<_> = runs.iter().map(|&(queries, run)| (queries, run.into())).collect();
+        shaded(view, seen, &lighting, Textures::On)
+    };
+    let (Some(truth), Some((_, first))) = (truth_of(judged), judged.first()) else {
+        return Ok(BTreeMap::new());
+    };
+    let mut reference = None;
+    let mut metrics = BTreeMap::new();
+    for tester in &first.testers {
+        let name = tester.run.name;
+        let results: Option<Vec<_>> = judged.iter().map(|(_, verdict)| verdict.tester(name)).collect();
+        let Some(results) = results else { continue };
+        let is_right = |result: &&TesterResult| result.counts.wrong == 0 && result.run.soft_light.is_none();
+        if results.iter().all(is_right) {
+            metrics.insert(name, ImageMetrics::SAME);
+            continue;
+        }
+        if reference.is_none() {
+            reference = Some(by(truth)?);
+        }
+        if let Some(reference) = &reference {
+            metrics.insert(name, ImageMetrics::new(&by(name)?, reference)?);
+        }
+    }
+    Ok(metrics)
+}
+
+/// The arbiter's name, if it was asked.
+fn truth_of(judged: &[(Queries, LightVerdict)]) -> Option<&'static str> {
+    let (_, verdict) = judged.first()?;
+    verdict.testers.iter().find(|tester| tester.run.basis == Basis::Truth).map(|tester| tester.run.name)
 }
 
 /// Adds one `shadow.<light>.<tester>` channel.

@@ -1,7 +1,8 @@
 //! Messages and progress on standard error.
 
-use crate::error::OneLine;
+use crate::error::{Error, OneLine};
 use crate::verdict::Progress;
+use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
@@ -30,13 +31,27 @@ impl Messages {
 
     /// Warns of something.
     pub fn warn(self, text: &str) {
-        self.say(&format!("warning: {text}"));
+        if self == Messages::Shown {
+            let warning = AnsiColor::Yellow.on_default().bold();
+            print_styled(&format!("lightbuffer: {warning}warning:{warning:#} {}\n", OneLine(text)));
+        }
     }
 }
 
 /// Writes to standard error. That nobody reads it is no reason to stop, and there is nowhere to say so.
 pub fn print_error(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// Writes why a run came to nothing.
+pub fn print_failure(error: &Error) {
+    const FAILURE: Style = AnsiColor::Red.on_default().bold();
+    print_styled(&format!("{FAILURE}lightbuffer:{FAILURE:#} {error}\n"));
+}
+
+/// Writes to standard error: in colours on a terminal, plainly elsewhere and where `NO_COLOR` is set.
+fn print_styled(text: &str) {
+    let _ = anstream::stderr().write_all(text.as_bytes());
 }
 
 /// A bar a tester on a terminal; nothing elsewhere.

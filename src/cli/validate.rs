@@ -6,10 +6,11 @@ use super::options::{LightOptions, RunOptions, TreeOptions, ViewOptions};
 use super::progress::{Bars, Messages, print_error};
 use super::testers::{TesterOptions, expect_lights};
 use super::view::{LookRules, Seen, View};
-use super::{output, picture};
+use super::{again, output, picture};
 use crate::error::Result;
 use crate::film::{FileSet, add_exr, add_false_colour, unique_safe_names};
 use crate::geometry::LightPosition;
+use crate::measure::bench::Machine;
 use crate::report::table::{statistics, verdict_table};
 use crate::report::validation::{EmbreeFacts, LightReport, Skipped, Totals, Validation, WhySkipped};
 use crate::scene::Scene;
@@ -17,6 +18,7 @@ use crate::shading::Textures;
 use crate::shadow::Queries;
 use crate::shadow::{BuildInput, TesterEntry, testers};
 use crate::verdict::{EpsilonCounts, LightVerdict, Progress, check_arbiter, judge, sweep_epsilon};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Testers that would need more tests than this are skipped by name.
@@ -94,6 +96,8 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let answers = view.size.pixels() as u64 * entries.len() as u64;
     let limit = limit.beside(format!("the answers of {} testers", entries.len()), answers)?;
     let seen = view.look(LookRules::usual(args.trees.depth), limit)?;
+    // When all testers are gone; so it need not be added to what they need.
+    seen.memory.check("pictures to compare", view.size.pixels() as u64 * picture::METRICS_BYTES)?;
     let index = args.run.index(&view.scene);
     let threads = rayon::current_num_threads();
     let names = unique_safe_names(&view.scene.lights.iter().map(|l| &l.name).collect::<Vec<_>>());
@@ -104,11 +108,14 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
         height: view.size.height,
         version: env!("CARGO_PKG_VERSION"),
         threads,
+        machine: Machine::here(),
+        replay: again::replay(args, view.size),
         embree: embree_facts(threads, args.run.embree_epsilon, messages)?,
         skipped: Vec::new(),
         lights: Vec::new(),
         cases: Vec::new(),
         epsilon_sweep: Vec::new(),
+        image_metrics: BTreeMap::new(),
         totals: Totals::default(),
     };
     let mut judged = Vec::new();
@@ -144,6 +151,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     } else if report.totals.queries == 0 {
         messages.warn("every visible point faces away from every light: there is nothing to judge");
     }
+    report.image_metrics = picture::metrics(&view, &seen, &judged)?;
     write_all(args, &view, &seen, &names, &judged, &report)?;
     if args.run.stats {
         let runs = view.scene.lights.iter().zip(&judged).flat_map(|(light, (_, verdict))| {

@@ -3,15 +3,18 @@
 //! Numbers go to OpenEXR in 32-bit floats, exactly as they were computed ([`write_exr`]); PNG files are for
 //! people ([`write_png_rgb`], [`write_false_colour`]). The bytes of every file depend on what it shows and
 //! on nothing else: not on threads, time or place. Files appear whole or not at all ([`write_atomically`]), and
-//! several of them together ([`FileSet`]).
+//! several of them together ([`FileSet`]). How far one image is from another is asked in numbers ([`ImageDifference`],
+//! [`ImageMetrics`]).
 
 mod attribute_order;
 mod canvas;
+mod difference;
 mod digits;
 mod exr_reader;
 mod false_colour;
 mod legend;
 mod markers;
+mod metrics;
 mod names;
 mod open_exr;
 pub mod palette;
@@ -21,10 +24,12 @@ mod subdivision;
 mod tone;
 
 pub use crate::atomic::{FileSet, write_atomically};
+pub use difference::{Allowance, ChannelDifference, ImageDifference, Likeness};
 pub use digits::grouped;
 pub use exr_reader::read_exr;
 pub use false_colour::{Category, CategoryMap, add_false_colour, write_false_colour};
 pub use markers::{Marking, RARE_PIXELS};
+pub use metrics::ImageMetrics;
 pub use names::{safe_light_name, unique_safe_names};
 pub use open_exr::{add_exr, write_exr};
 pub use planes::{ImagePlanes, Plane};

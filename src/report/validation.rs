@@ -1,6 +1,8 @@
 //! `validate.json`: the verdicts of a run. Its keys are a contract; new ones may be added.
 
 use super::hard_cases::CaseReport;
+use crate::film::ImageMetrics;
+use crate::measure::bench::Machine;
 use crate::shadow::{Basis, Queries, shadow_buffer};
 use crate::verdict::{ArbiterCheck, CauseCounts, EpsilonCounts, LightVerdict, TesterCounts};
 use crate::verdict::{TesterResult, VerdictCounts};
@@ -21,6 +23,12 @@ pub struct Validation {
     pub version: &'static str,
     /// Threads that the times were taken with.
     pub threads: usize,
+    /// What the times were taken on.
+    pub machine: Machine,
+    /// Words of a command that asks about a pixel of the same view, but for `--pixel` and `--light`. Empty where there is
+    /// no image.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub replay: Vec<String>,
     /// Embree's version and instruction set; absent without it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub embree: Option<EmbreeFacts>,
@@ -34,6 +42,9 @@ pub struct Validation {
     /// Embree with other epsilons, summed over the lights, if that was asked for; else left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub epsilon_sweep: Vec<EpsilonCounts>,
+    /// The picture by each tester's shadows against that by the truth's. Empty where there is no image.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub image_metrics: BTreeMap<&'static str, ImageMetrics>,
     /// Sums over the lights, or over the situations of all cases.
     pub totals: Totals,
 }

@@ -1,8 +1,10 @@
 //! The program as people run it: its options, what it writes where, and how it exits.
 
 mod bench;
+mod compare;
 mod embree_modes;
 mod epsilon;
+mod exr_tools;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
 #[cfg(unix)]
@@ -11,6 +13,7 @@ mod fuzz;
 mod hard_cases;
 mod hostile;
 mod info;
+mod manual;
 mod many_lights;
 mod masks;
 mod memory;
@@ -23,6 +26,7 @@ mod places;
 mod polygon_writers;
 mod render;
 mod replay;
+mod report;
 mod reproduce;
 mod reproduce_t_buffer;
 mod same_scene;

@@ -42,6 +42,7 @@ fn the_document_has_the_keys_that_are_promised() {
     let embree = cfg!(feature = "embree").then_some("embree");
     let mut expected: Vec<_> =
         ["height", "lights", "scene", "skipped", "threads", "totals", "version", "width"].into();
+    expected.extend(["image_metrics", "machine", "replay"]);
     expected.extend(embree);
     expected.sort();
     assert_eq!(keys(&report), expected);

@@ -26,7 +26,7 @@ pub struct Choice {
 }
 
 /// One that does not take part.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Skipped {
     /// Its name.
     pub tester: String,

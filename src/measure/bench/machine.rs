@@ -1,16 +1,17 @@
 //! What it was measured on.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A machine, as far as times depend on it and it says.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Machine {
     /// The processor's name.
     pub cpu: String,
     /// Processors that the program may use.
     pub cores: usize,
     /// Instruction sets beyond those that every such processor has.
-    pub instruction_sets: Vec<&'static str>,
+    pub instruction_sets: Vec<Cow<'static, str>>,
     /// Bytes of memory; `null` if it does not say.
     pub memory: Option<u64>,
     /// Name and version of the system.
@@ -18,7 +19,7 @@ pub struct Machine {
     /// Version of its kernel.
     pub kernel: String,
     /// Version of this program.
-    pub version: &'static str,
+    pub version: Cow<'static, str>,
     /// Version of Embree; `null` without it.
     pub embree: Option<String>,
     /// Widest instruction set that Embree traverses with; `null` without it.
@@ -43,7 +44,7 @@ impl Machine {
             os: value_of(&read("/etc/os-release"), "PRETTY_NAME", '=')
                 .unwrap_or_else(|| std::env::consts::OS.into()),
             kernel: if kernel.is_empty() { unknown() } else { kernel },
-            version: env!("CARGO_PKG_VERSION"),
+            version: env!("CARGO_PKG_VERSION").into(),
             embree,
             embree_isa,
         }
@@ -58,7 +59,7 @@ fn value_of(text: &str, name: &str, separator: char) -> Option<String> {
 }
 
 #[cfg(target_arch = "x86_64")]
-fn instruction_sets() -> Vec<&'static str> {
+fn instruction_sets() -> Vec<Cow<'static, str>> {
     let all = [
         ("AVX", is_x86_feature_detected!("avx")),
         ("AVX2", is_x86_feature_detected!("avx2")),
@@ -68,11 +69,11 @@ fn instruction_sets() -> Vec<&'static str> {
         ("AVX-512DQ", is_x86_feature_detected!("avx512dq")),
         ("AVX-512VL", is_x86_feature_detected!("avx512vl")),
     ];
-    all.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect()
+    all.into_iter().filter(|(_, there)| *there).map(|(name, _)| name.into()).collect()
 }
 
 #[cfg(not(target_arch = "x86_64"))]
-fn instruction_sets() -> Vec<&'static str> {
+fn instruction_sets() -> Vec<Cow<'static, str>> {
     Vec::new()
 }
 

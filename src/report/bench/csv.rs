@@ -20,7 +20,7 @@ pub fn csv(document: &Document) -> String {
 }
 
 fn line(text: &mut String, start: &str, row: &RowReport) {
-    let words = [row.scene.as_str(), row.tester, row.side, &row.parameter].map(quoted);
+    let words = [&*row.scene, &*row.tester, &*row.side, &*row.parameter].map(quoted);
     let [scene, tester, side, parameter] = words;
     let _ = write!(text, "{start},{scene},{},{},{},{},", row.primitives, row.lights, row.width, row.height);
     let _ = write!(text, "{tester},{side},{parameter},{},{},", row.threads, row.queries);

@@ -1,10 +1,11 @@
 //! `bench.json`: speed against error. Its keys are a contract; new ones may be added.
 
 use crate::measure::bench::{Machine, Measured, Plan, Ratio, Row, Side, Skipped, Stage};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The whole document.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Document {
     /// What it was measured on.
     pub machine: Machine,
@@ -21,7 +22,7 @@ pub struct Document {
 }
 
 /// A tester in a scene.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct RowReport {
     /// The scene.
     pub scene: String,
@@ -34,13 +35,13 @@ pub struct RowReport {
     /// Image height in pixels.
     pub height: u32,
     /// Who.
-    pub tester: &'static str,
+    pub tester: Cow<'static, str>,
     /// `native`, `embree`, or `approximate`.
-    pub side: &'static str,
+    pub side: Cow<'static, str>,
     /// What it was set to, in words.
     pub parameter: String,
     /// The order of the queries: `rows` or `tiles`.
-    pub order: &'static str,
+    pub order: Cow<'static, str>,
     /// Embree's epsilon.
     pub epsilon: Option<f32>,
     /// Threads, of Embree's pool too.
@@ -76,7 +77,7 @@ pub struct RowReport {
 }
 
 /// Embree's fastest over the fastest native tester without a wrong answer.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct RatioReport {
     /// The scene.
     pub scene: String,
@@ -95,7 +96,7 @@ pub struct RatioReport {
 }
 
 /// One that did not take part.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct SkippedReport {
     /// The scene.
     pub scene: String,
@@ -107,10 +108,10 @@ pub struct SkippedReport {
 }
 
 /// A tester at one size of something that grows.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct GrowthReport {
     /// What grows: `triangles`, `lights` or `pixels`.
-    pub over: &'static str,
+    pub over: Cow<'static, str>,
     /// How much there is of it.
     pub at: u64,
     /// The rest.
@@ -152,14 +153,14 @@ impl Heading {
             lights: self.lights,
             width: self.width,
             height: self.height,
-            tester: row.contender.entry.name,
-            side: match row.contender.side() {
+            tester: row.contender.entry.name.into(),
+            side: Cow::Borrowed(match row.contender.side() {
                 Side::Native => "native",
                 Side::Embree => "embree",
                 Side::Approximate => "approximate",
-            },
+            }),
             parameter: row.contender.parameter(),
-            order: row.contender.order.name(),
+            order: row.contender.order.name().into(),
             epsilon: row.contender.epsilon,
             threads: self.threads,
             queries: self.queries,
@@ -217,7 +218,7 @@ impl Part {
 
     /// Its rows as a step of something that grows.
     pub fn growth(self, over: &'static str, at: u64) -> impl Iterator<Item = GrowthReport> {
-        self.rows.into_iter().map(move |row| GrowthReport { over, at, row })
+        self.rows.into_iter().map(move |row| GrowthReport { over: over.into(), at, row })
     }
 }
 

@@ -2,5 +2,6 @@
 
 pub mod csv;
 pub mod document;
+pub mod pareto;
 pub mod plots;
 pub mod table;

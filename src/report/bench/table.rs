@@ -33,7 +33,7 @@ pub fn table(document: &Document) -> String {
             skipped.skipped.why
         );
     }
-    for group in document.growth.chunk_by(|one, other| (one.over, one.at) == (other.over, other.at)) {
+    for group in document.growth.chunk_by(|one, other| (&one.over, one.at) == (&other.over, other.at)) {
         let _ = writeln!(text, "\n{} {}", grouped(group[0].at), group[0].over);
         heading(&mut text, &group[0].row);
         let shown = |row: &&RowReport| row.interleaved;
