@@ -45,6 +45,14 @@ impl MemoryLimit {
         Err(Error::Usage(format!("{what} would need about {needed}{beside}, and --memory-limit is {limit}")))
     }
 
+    /// The error of something that turned out to need more than is left.
+    pub fn exceeded(self, what: impl Display) -> Error {
+        let (left, limit) = (in_words(self.left()), in_words(self.most));
+        Error::Usage(format!(
+            "{what} would need more than the {left} that are left, and --memory-limit is {limit}"
+        ))
+    }
+
     /// The bytes that are not spoken for.
     pub fn left(self) -> u64 {
         self.most.saturating_sub(self.spoken_for)

@@ -30,7 +30,7 @@ fn build<'a>(input: &BuildInput<'a>) -> Result<Box<dyn ShadowTester + 'a>> {
         && input.object_coherence == ObjectCoherence::Off;
     match input.light {
         LightPosition::At(light) if is_plain => {
-            Ok(Box::new(KeptLightBuffer::new(input, light.into(), InstructionSet::best())?))
+            Ok(Box::new(KeptLightBuffer::new(input, light, InstructionSet::best())?))
         }
         _ => Ok(Box::new(LightBuffer::new(input)?)),
     }

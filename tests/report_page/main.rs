@@ -145,6 +145,7 @@ fn the_page_in_a_browser() {
     slider_and_maps_move(&mut browser);
     a_single_pixel_is_seen_at_every_zoom(&mut browser, folder.path());
     tables_sort(&mut browser);
+    sizes_sort_by_bytes(&mut browser);
     plots_and_words_are_there(&mut browser);
     everything_has_a_name(&mut browser);
     looks(&mut browser);
@@ -245,6 +246,14 @@ fn slider_and_maps_move(browser: &mut Browser) {
     let zoomed: Vec<f64> =
         ["picture", "difference", "verdict"].map(|panel| fingerprint(browser, panel)).into();
     assert!(before.iter().zip(&zoomed).all(|(before, after)| before != after), "one map does not follow");
+    let unlike = browser.ask(&format!(
+        "(() => {{ const [one, other] = ['difference', 'verdict'].map((name) => {{ \
+         const c = document.querySelector(`#scene-1-maps [data-panel=${{name}}] canvas`); {COPY} \
+         return copy.getImageData(0, 0, c.width, c.height).data; }}); \
+         const ground = (d, i) => d[i] === 24 && d[i + 1] === 24 && d[i + 2] === 28; \
+         let n = 0; for (let i = 0; i < one.length; i += 4) n += ground(one, i) !== ground(other, i); return n; }})()"
+    ));
+    assert_eq!(unlike, 0, "the maps do not show one place at one zoom");
     browser.click(&maps(".fit"));
     let fitted: Vec<f64> =
         ["picture", "difference", "verdict"].map(|panel| fingerprint(browser, panel)).into();
@@ -300,16 +309,26 @@ fn a_single_pixel_is_seen_at_every_zoom(browser: &mut Browser, folder: &Path) {
     let sky_blue = json!([86, 180, 233]);
     let (x, y) = (at % WIDTH, at / WIDTH);
     assert_eq!(colour(browser, "verdict", x, y), sky_blue, "at {x},{y}");
-    // Sixty CSS pixels for 96 of the image: sampling alone would lose every third one.
-    for factor in [0.1, 0.25] {
-        browser.ask(&format!(
-            "document.querySelector('#scene-1-maps .panels').style.width = '{}px'",
-            600.0 * factor
+    // Fewer CSS pixels than the image has: sampling alone would lose some. One wrong pixel alone, so that no ring of
+    // another lies over it, and the one that is asked about elsewhere.
+    let alone = "const v = viewers.get('scene-1'); v.kept ??= v.wrong;";
+    browser.ask(&format!(
+        "(() => {{ {alone} v.wrong = v.kept.filter((mark) => mark.at === {at}); v.pixel = {{ x: 0, y: 0 }}; }})()"
+    ));
+    for width in [40, 60, 77, 95, 200] {
+        browser.ask(&format!("document.querySelector('#scene-1-maps .panels').style.width = '{width}px'"));
+        browser.drawn();
+        browser.drawn();
+        let canvas = json!(maps("[data-panel=verdict] canvas"));
+        let blue = browser.ask(&format!(
+            "(() => {{ const c = document.querySelector({canvas}); const s = c.width / {WIDTH}; {COPY} \
+             const d = copy.getImageData(Math.floor(({x} + 0.5) * s) - 2, Math.floor(({y} + 0.5) * s) - 2, 5, 5).data; \
+             let n = 0; for (let i = 0; i < d.length; i += 4) n += d[i] === 86 && d[i + 1] === 180 && d[i + 2] === 233; \
+             return n; }})()"
         ));
-        browser.drawn();
-        browser.drawn();
-        assert_eq!(colour(browser, "verdict", x, y), sky_blue, "{factor}");
+        assert!(blue.as_u64().unwrap() >= 4, "{blue} pixels of the colour on a map {width} wide");
     }
+    browser.ask("(() => { const v = viewers.get('scene-1'); v.wrong = v.kept; })()");
     browser.ask("document.querySelector('#scene-1-maps .panels').style.width = ''");
     browser.drawn();
     assert_eq!((codes.len(), image.size().height as usize), (WIDTH * HEIGHT, HEIGHT));
@@ -344,6 +363,19 @@ fn tables_sort(browser: &mut Browser) {
         browser.ask("document.querySelector('#sort-here').closest('th').getAttribute('aria-sort')"),
         "descending"
     );
+}
+
+/// By what cells stand for, and not by their words.
+fn sizes_sort_by_bytes(browser: &mut Browser) {
+    let order = browser.ask(
+        "(() => { const t = document.querySelector('#bench-1 table.sortable').cloneNode(true); \
+         const sizes = [['10 KiB', 10240], ['9 MiB', 9437184], ['640 B', 640]]; \
+         t.tBodies[0].replaceChildren(...sizes.map(([text, sort]) => { const row = document.createElement('tr'); \
+         const cell = row.insertCell(); cell.textContent = text; cell.dataset.sort = sort; return row; })); \
+         makeSortable(t); t.tHead.rows[0].cells[0].querySelector('button').click(); \
+         return [...t.tBodies[0].rows].map((row) => row.textContent); })()",
+    );
+    assert_eq!(order, json!(["640 B", "10 KiB", "9 MiB"]));
 }
 
 fn plots_and_words_are_there(browser: &mut Browser) {

@@ -2,7 +2,7 @@
 
 use super::cell_lists::Item;
 use super::masks::bits;
-use super::tiles::BLOCK;
+use super::tiles::{AREA, BLOCK};
 use crate::geometry::batch::InstructionSet;
 
 /// What an edge says of the centre of a cell: a x + b y + at, positive inside, x and y counted from a first cell.
@@ -40,6 +40,20 @@ pub(super) struct Patch {
     pub spread: f32,
     /// Limits of w over the whole triangle.
     pub w_limits: [f32; 2],
+}
+
+/// A tile: its first column and row, and the keys of its cells.
+pub(super) struct Seen<'a> {
+    pub corner: [u32; 2],
+    pub keys: &'a [u32; AREA as usize],
+}
+
+impl Seen<'_> {
+    /// The keys of a block, by the place of its first cell.
+    #[inline(always)]
+    pub fn block(&self, place: usize) -> &[u32; BLOCK] {
+        self.keys[place..place + BLOCK].try_into().expect("a block")
+    }
 }
 
 /// What a triangle is in each cell of a block.

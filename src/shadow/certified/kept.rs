@@ -11,7 +11,7 @@ use super::tiles::{AREA, TileGrid};
 
 use super::making::Lists;
 use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::memory::MemoryLimit;
@@ -47,7 +47,7 @@ impl<'a> Certified<'a> {
     /// Makes cells that are good for any query.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a resolution outside 1 to 4096, 2^28 triangles and more, or more memory than there may be.
+    /// [`Error::Usage`](crate::error::Error::Usage) for a resolution outside 1 to 4096, 2^28 triangles and more, or more memory than there may be.
     pub fn keep(self, resolution: u32) -> Result<Kept<'a>> {
         let _floats = StandardFloats::new();
         let memory = self.checked(resolution, 0)?;
@@ -110,8 +110,7 @@ impl<'a> Certified<'a> {
         let cast = self.cast();
         let survey =
             Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
-        let too_long =
-            || Error::Usage(format!("{} needs more memory than there may be for its lists", what()));
+        let too_long = || memory.exceeded(what());
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let bins = self.bins(&survey, &budget).ok_or_else(too_long)?;
         let is_there = |tile: &u32| bins.iter().any(|bins| !bins.is_empty(*tile));

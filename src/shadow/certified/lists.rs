@@ -1,7 +1,7 @@
 //! The lists of one tile after the other: its triangles, their common edges, what each is in each cell, and certificates.
 
 use super::bins::{Bins, Budget, Caller};
-use super::block::{Patch, Sixteen, any_above};
+use super::block::{Patch, Seen, Sixteen, any_above};
 use super::cell_lists::{CellLists, Item};
 use super::certificate::{Entries, Header, Kinds, Record, Run, certify};
 use super::corners::{Corners, LANES};
@@ -31,18 +31,11 @@ pub(super) struct Lister<'a> {
 /// Triangles of at most so many cells across are entered cell by cell.
 const MOST_TINY: u32 = 3;
 
-/// A tile: its first column and row, and the keys of its cells.
-struct Seen<'a> {
-    corner: [u32; 2],
-    keys: &'a [u32; AREA as usize],
-}
-
-impl Seen<'_> {
-    /// The keys of a block, by the place of its first cell.
-    #[inline(always)]
-    fn block(&self, place: usize) -> &[u32; BLOCK] {
-        self.keys[place..place + BLOCK].try_into().expect("a block")
-    }
+/// Up to sixteen triangles of a tile: their numbers, their edges that are irregular, and how they face the light.
+struct Triangles<'a> {
+    numbers: &'a [u32],
+    irregular: &'a [u8],
+    of_lanes: [Facing; LANES],
 }
 
 /// Headers and lists of some tiles.
@@ -166,15 +159,12 @@ impl Lister<'_> {
             let mut of_lanes = [Facing::Nothing; LANES];
             of_lanes[..count].copy_from_slice(&facing[first..first + count]);
             patches.fill(&self.projector, of_sixteen, &of_lanes);
-            let there = self.enter_tiny(
-                set,
-                &numbers[first..first + count],
-                &irregular[first..],
-                &of_lanes,
-                &seen,
-                patches,
-                cells,
-            );
+            let triangles = Triangles {
+                numbers: &numbers[first..first + count],
+                irregular: &irregular[first..],
+                of_lanes,
+            };
+            let there = self.enter_tiny(set, &triangles, &seen, patches, cells);
             each_bit(there, |lane| {
                 let patch = patches.patch(lane, irregular[first + lane]);
                 self.enter_small(set, numbers[first + lane], &patch, &seen, cells);
@@ -203,13 +193,12 @@ impl Lister<'_> {
     fn enter_tiny(
         &self,
         set: InstructionSet,
-        numbers: &[u32],
-        irregular: &[u8],
-        facing: &[Facing; LANES],
+        triangles: &Triangles,
         seen: &Seen,
         patches: &Patches,
         cells: &mut CellLists,
     ) -> u32 {
+        let Triangles { numbers, irregular, of_lanes: facing } = triangles;
         let (mut tiny, mut others, mut most) = (0u32, 0u32, [0, 0]);
         let mut of_lanes = [0; LANES];
         for lane in 0..numbers.len() {
@@ -228,15 +217,7 @@ impl Lister<'_> {
         let (mut sixteen, mut places) = (Sixteen::default(), [0; LANES]);
         for y in 0..most[1] {
             for x in 0..most[0] {
-                let live = patches.in_cell(
-                    set,
-                    [x, y],
-                    seen.corner,
-                    &of_lanes,
-                    seen.keys,
-                    &mut sixteen,
-                    &mut places,
-                );
+                let live = patches.in_cell(set, [x, y], seen, &of_lanes, &mut sixteen, &mut places);
                 each_bit(live & tiny, |lane| {
                     let item = Item::new(numbers[lane], sixteen.flags[lane]);
                     cells.enter(places[lane] as usize, item, sixteen.near[lane], sixteen.far[lane]);

@@ -1,6 +1,6 @@
 //! Triangles that lie on one side and touch few cells, sixteen at a time: all in f32, on the side.
 
-use super::block::{CellBox, Cover, Edge, Patch, Sixteen, depths};
+use super::block::{CellBox, Cover, Edge, Patch, Seen, Sixteen, depths};
 use super::corners::{Corners, LANES};
 use super::facing::Facing;
 use super::masks::bits;
@@ -104,16 +104,15 @@ impl Patches {
     }
 
     /// What each is in one cell of its box, so many columns and rows from the first; the place of that cell in the tile; and a
-    /// bit for each that may meet it and that somebody looks into there. `irregular` and `keys` are as for [`Patches::patch`]
-    /// and [`Sixteen::fill`], of all lanes and of the cells of the tile.
+    /// bit for each that may meet it and that somebody looks into there. `irregular` is as for [`Patches::patch`], of all
+    /// lanes.
     #[inline(always)]
     pub fn in_cell(
         &self,
         set: InstructionSet,
         [dx, dy]: [u32; 2],
-        corner: [u32; 2],
+        Seen { corner, keys }: &Seen,
         irregular: &[u32; LANES],
-        keys: &[u32; AREA as usize],
         sixteen: &mut Sixteen,
         places: &mut [u32; LANES],
     ) -> u32 {
