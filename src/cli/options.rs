@@ -3,6 +3,7 @@
 use super::view::LookRules;
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
+use crate::geometry::batch::InstructionSet;
 use crate::memory::{self, MemoryLimit};
 use crate::scene::{ImageSize, Scene};
 use crate::shading::{Following, Textures, TreeRules, USUAL_DEPTH};
@@ -170,6 +171,10 @@ fn parse_method(text: &str) -> std::result::Result<FirstHitMethod, String> {
 
 #[derive(Debug, Args)]
 pub struct RunOptions {
+    /// Instructions that native testers run on: portable, avx2 or avx512 [default: the widest that this machine has]. No
+    /// answer depends on it
+    #[arg(long, value_name = "SET", value_parser = parse_instruction_set)]
+    pub isa: Option<InstructionSet>,
     /// Cells along an edge of the light buffer's cube: 1 to 4096, or auto
     #[arg(long, value_name = "R", default_value = "auto", value_parser = parse_resolution)]
     pub resolution: Resolution,
@@ -254,6 +259,7 @@ impl RunOptions {
             shadow_buffer: self.shadow_buffer(),
             embree: EmbreeSettings { epsilon: self.embree_epsilon, threads: rayon::current_num_threads() },
             memory,
+            instruction_set: self.isa.unwrap_or_else(InstructionSet::best),
             ..BuildInput::new(scene, index, light)
         }
     }
@@ -332,6 +338,18 @@ fn parse_point(text: &str) -> std::result::Result<Vec3, String> {
         Some(&[x, y, z]) if [x, y, z].iter().all(|n: &f32| n.is_finite()) => Ok(Vec3::new(x, y, z)),
         _ => Err("expected three finite numbers X,Y,Z".into()),
     }
+}
+
+/// Reads a set of instructions that this machine has.
+///
+/// # Errors
+/// The names of those.
+pub fn parse_instruction_set(text: &str) -> std::result::Result<InstructionSet, String> {
+    let there = || InstructionSet::ALL.into_iter().filter(|set| set.is_available());
+    there().find(|set| set.name() == text).ok_or_else(|| {
+        let names: Vec<_> = there().map(InstructionSet::name).collect();
+        format!("this machine has {}", names.join(", "))
+    })
 }
 
 pub fn parse_resolution(text: &str) -> std::result::Result<Resolution, String> {

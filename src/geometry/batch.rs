@@ -63,6 +63,15 @@ impl InstructionSet {
         }
     }
 
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            InstructionSet::Portable => "portable",
+            InstructionSet::Avx2 => "avx2",
+            InstructionSet::Avx512 => "avx512",
+        }
+    }
+
     /// The widest that this machine has.
     pub fn best() -> InstructionSet {
         *InstructionSet::ALL.iter().rev().find(|set| set.is_available()).expect("portable is there")

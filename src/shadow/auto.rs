@@ -13,7 +13,6 @@ use super::{
     Basis, Batching, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry, kept_light_buffer,
 };
 use crate::error::Result;
-use crate::geometry::batch::InstructionSet;
 use crate::visibility::SurfacePoint;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -45,7 +44,7 @@ impl<'a> Auto<'a> {
     /// # Errors
     /// Those of the irregular z-buffer.
     pub fn new(input: &BuildInput<'a>) -> Result<Auto<'a>> {
-        let once = IrregularZBuffer::new(input, InstructionSet::best())?;
+        let once = IrregularZBuffer::new(input)?;
         let was_asked = AtomicBool::new(input.scene.triangles.len() <= FEW_TRIANGLES);
         Ok(Auto { input: *input, once, kept: OnceLock::new(), was_asked })
     }

@@ -18,7 +18,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     lights: Lights::All,
     build: &|input| {
         let _floats = StandardFloats::new();
-        Ok(Box::new(BruteForce::new(input, InstructionSet::best())))
+        Ok(Box::new(BruteForce::new(input, input.instruction_set)))
     },
     expected_tests: |casters, queries| casters * queries,
 };

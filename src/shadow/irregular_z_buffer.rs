@@ -13,7 +13,6 @@ use super::{
 };
 use crate::error::Result;
 use crate::geometry::LightPosition;
-use crate::geometry::batch::InstructionSet;
 use crate::visibility::SurfacePoint;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
@@ -22,7 +21,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "irregular-z-buffer",
     basis: Basis::Exact,
     lights: Lights::All,
-    build: &|input| Ok(Box::new(IrregularZBuffer::new(input, InstructionSet::best())?)),
+    build: &|input| Ok(Box::new(IrregularZBuffer::new(input)?)),
     expected_tests: |_, queries| 10.0 * queries,
 };
 
@@ -37,16 +36,19 @@ pub struct IrregularZBuffer<'a> {
 }
 
 impl<'a> IrregularZBuffer<'a> {
-    /// Prepares what does not depend on the view; `instruction_set` must be available.
+    /// Prepares what does not depend on the view.
     ///
     /// # Errors
     /// Those of a light buffer, where one is needed.
-    pub fn new(input: &BuildInput<'a>, instruction_set: InstructionSet) -> Result<IrregularZBuffer<'a>> {
+    pub fn new(input: &BuildInput<'a>) -> Result<IrregularZBuffer<'a>> {
         let whole = match input.light {
             LightPosition::Towards(_) => None,
-            LightPosition::At(light) => {
-                Some(Certified { scene: input.scene, light, set: instruction_set, memory: input.memory })
-            }
+            LightPosition::At(light) => Some(Certified {
+                scene: input.scene,
+                light,
+                set: input.instruction_set,
+                memory: input.memory,
+            }),
         };
         let (resolution, rest) = (input.resolution, Rest::new(input)?);
         Ok(IrregularZBuffer { whole, resolution, rest, bytes: AtomicU64::new(0) })

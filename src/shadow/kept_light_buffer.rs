@@ -11,8 +11,8 @@ use super::{
 };
 use crate::error::Result;
 use crate::geometry::LightPosition;
-use crate::geometry::batch::InstructionSet;
 use crate::visibility::SurfacePoint;
+use glam::Vec3;
 
 /// `light-buffer` in the registry.
 pub const ENTRY: TesterEntry = TesterEntry {
@@ -29,9 +29,7 @@ fn build<'a>(input: &BuildInput<'a>) -> Result<Box<dyn ShadowTester + 'a>> {
         && input.bounding_volumes == VolumeThreshold::Off
         && input.object_coherence == ObjectCoherence::Off;
     match input.light {
-        LightPosition::At(light) if is_plain => {
-            Ok(Box::new(KeptLightBuffer::new(input, light, InstructionSet::best())?))
-        }
+        LightPosition::At(light) if is_plain => Ok(Box::new(KeptLightBuffer::new(input, light)?)),
         _ => Ok(Box::new(LightBuffer::new(input)?)),
     }
 }
@@ -43,17 +41,14 @@ pub struct KeptLightBuffer<'a> {
 }
 
 impl<'a> KeptLightBuffer<'a> {
-    /// Makes all cells; `instruction_set` must be available.
+    /// Makes all cells.
     ///
     /// # Errors
     /// [`Error::Usage`](crate::error::Error::Usage) for a resolution outside 1 to 4096, or too little memory; those of a light buffer, where one is needed
     /// beside.
-    pub fn new(
-        input: &BuildInput<'a>,
-        light: glam::Vec3,
-        instruction_set: InstructionSet,
-    ) -> Result<KeptLightBuffer<'a>> {
-        let certified = Certified { scene: input.scene, light, set: instruction_set, memory: input.memory };
+    pub fn new(input: &BuildInput<'a>, light: Vec3) -> Result<KeptLightBuffer<'a>> {
+        let certified =
+            Certified { scene: input.scene, light, set: input.instruction_set, memory: input.memory };
         let whole = match input.resolution {
             Resolution::Auto => certified.keep_within(usual_bytes(input.scene))?,
             Resolution::Cells(cells) => certified.keep(cells)?,

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::geometry::LightPosition;
+use crate::geometry::batch::InstructionSet;
 use crate::memory::MemoryLimit;
 use crate::scene::Scene;
 
@@ -64,11 +65,13 @@ pub struct BuildInput<'a> {
     pub embree: EmbreeSettings,
     /// The most memory that it may need.
     pub memory: MemoryLimit,
+    /// What kernels run on, one that this machine has. No answer depends on it.
+    pub instruction_set: InstructionSet,
 }
 
 impl<'a> BuildInput<'a> {
     /// A light over the surfaces of a scene, everything else as usual: resolution `auto`, Embree with its
-    /// usual epsilon, no limit on memory.
+    /// usual epsilon, no limit on memory, the widest instructions.
     pub fn new(scene: &'a Scene, index: &'a SceneIndex, light: impl Into<LightPosition>) -> BuildInput<'a> {
         BuildInput {
             scene,
@@ -83,6 +86,7 @@ impl<'a> BuildInput<'a> {
             shadow_buffer_file: BufferFile::Unused,
             embree: EmbreeSettings::default(),
             memory: MemoryLimit::NONE,
+            instruction_set: InstructionSet::best(),
         }
     }
 }

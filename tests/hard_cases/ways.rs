@@ -26,8 +26,8 @@ pub enum Who {
     BruteForce(InstructionSet),
     BoundingVolumes(InstructionSet),
     LightBuffer,
-    /// A native tester that is known here by its name alone.
-    Other(&'static TesterEntry),
+    /// A native tester that is known here by its name alone, on some instructions.
+    Other(&'static TesterEntry, InstructionSet),
 }
 
 /// A tester and how it is set.
@@ -71,10 +71,10 @@ impl fmt::Display for Way {
             Who::Arbiter => write!(f, "exact")?,
             Who::BruteForce(set) => write!(f, "brute-force, {set:?}")?,
             Who::BoundingVolumes(set) => write!(f, "bounding-volumes, {set:?}")?,
-            Who::Other(entry) => write!(f, "{}", entry.name)?,
+            Who::Other(entry, set) => write!(f, "{}, {set:?}, at R = {}", entry.name, self.resolution)?,
             Who::LightBuffer => write!(
                 f,
-                "light-buffer at R = {}, culling {:?}, volumes {:?}, coherence {:?}",
+                "light buffer of 1986 at R = {}, culling {:?}, volumes {:?}, coherence {:?}",
                 self.resolution, self.culling, self.volumes, self.coherence
             )?,
         }
@@ -93,9 +93,14 @@ pub fn ways(situation: &Situation) -> Vec<Way> {
         ways.extend([Way::of(Who::BruteForce(set)), Way::of(Who::BoundingVolumes(set))]);
     }
     ways.push(Way { threads: 2, ..Way::of(Who::BruteForce(InstructionSet::best())) });
-    let known = ["brute-force", "bounding-volumes", "light-buffer"];
-    let others = testers().filter(|entry| entry.basis == Basis::Exact && !known.contains(&entry.name));
-    ways.extend(others.map(|entry| Way::of(Who::Other(entry))));
+    for entry in others() {
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            let resolutions = [1, 7, 64].into_iter().chain(situation.resolution);
+            ways.extend(resolutions.map(|resolution| Way { resolution, ..Way::of(Who::Other(entry, set)) }));
+        }
+        let best = Who::Other(entry, InstructionSet::best());
+        ways.push(Way { resolution: 300, threads: 2, ..Way::of(best) });
+    }
     for &receivers in places {
         let buffer = |resolution| Way { receivers, ..Way::light_buffer(resolution) };
         let solids = |way| Way { culling: Culling::ClosedSolids, ..way };
@@ -116,12 +121,24 @@ pub fn ways(situation: &Situation) -> Vec<Way> {
     if every_resolution() {
         let powers = (0..=11).map(|n| 1 << n);
         for resolution in powers.chain([3, 7, 100, 1000, 2047]) {
-            ways.extend([1, 2].map(|threads| Way { receivers, threads, ..Way::light_buffer(resolution) }));
+            for threads in [1, 2] {
+                ways.push(Way { receivers, threads, ..Way::light_buffer(resolution) });
+                for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+                    let way = |entry| Way { resolution, threads, ..Way::of(Who::Other(entry, set)) };
+                    ways.extend(others().map(way));
+                }
+            }
         }
     } else {
         ways.push(Way { receivers, threads: 2, ..Way::light_buffer(512) });
     }
     ways
+}
+
+/// Native testers beside those of which all settings are gone through.
+fn others() -> impl Iterator<Item = &'static TesterEntry> {
+    let known = ["brute-force", "bounding-volumes"];
+    testers().filter(move |entry| entry.basis == Basis::Exact && !known.contains(&entry.name))
 }
 
 /// Whether the long run was asked for: `make hard-cases`.
@@ -159,7 +176,9 @@ pub fn ask_here(way: &Way, situation: &Situation, index: &SceneIndex) -> Vec<Ans
         Who::BruteForce(set) => Box::new(BruteForce::new(&input, set)),
         Who::BoundingVolumes(set) => Box::new(BoundingVolumes::new(&input, set)),
         Who::LightBuffer => Box::new(LightBuffer::new(&input).unwrap()),
-        Who::Other(entry) => (entry.build)(&input).unwrap(),
+        Who::Other(entry, instruction_set) => {
+            (entry.build)(&BuildInput { instruction_set, ..input }).unwrap()
+        }
     };
     let question = Question::of(&situation.scene);
     let answers = answer(tester.as_ref(), &situation.points, question, &|_| {}).unwrap();

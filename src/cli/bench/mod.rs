@@ -2,12 +2,16 @@
 
 mod growth;
 
-use super::options::{LightOptions, ViewOptions, parse_epsilon, parse_resolution, parse_size, thread_pool};
+use super::options::{
+    LightOptions, ViewOptions, parse_epsilon, parse_instruction_set, parse_resolution, parse_size,
+    thread_pool,
+};
 use super::progress::Messages;
 use super::view::{LookRules, Seen, View};
 use super::{Outcome, output};
 use crate::error::{Error, Result};
 use crate::film::FileSet;
+use crate::geometry::batch::InstructionSet;
 use crate::measure::bench::{Choice, Order, Plan, Stage, Truths, measure};
 use crate::memory::{self, MemoryLimit};
 use crate::report::bench::document::{Document, Heading, Part};
@@ -48,6 +52,9 @@ pub struct Args {
     /// Resolutions of the light buffer: from 1 to 4096, or auto
     #[arg(long, value_name = "R,R", value_delimiter = ',', default_value = "auto", value_parser = parse_resolution)]
     resolution: Vec<Resolution>,
+    /// Instructions that native testers run on: portable, avx2 or avx512 [default: the widest that this machine has]
+    #[arg(long, value_name = "SET", value_parser = parse_instruction_set)]
+    isa: Option<InstructionSet>,
     /// Shares of a segment that Embree leaves out at both ends, in [0, 0.5): every mode is asked with the first, and
     /// the fastest with the others too
     #[arg(long, value_name = "E,E", value_delimiter = ',', default_value = "1e-4", value_parser = parse_epsilon)]
@@ -198,6 +205,8 @@ fn part(
     let all = thread_pool(None)?;
     let Seen { forest, memory, .. } = all.install(|| view.look(LookRules::usual(1), args.memory_limit()))?;
     let stage = all.install(|| Stage::new(&view.scene, &forest.nodes, view.size, orders, memory))?;
+    let instruction_set = args.isa.unwrap_or(stage.instruction_set);
+    let stage = Stage { instruction_set, ..stage };
     drop(all);
     let name = &view.scene.name;
     let say = |text: &str| {

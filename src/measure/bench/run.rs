@@ -127,6 +127,7 @@ fn native(group: &[Contender], stage: &Stage, passes: Passes) -> Result<Vec<Turn
         let input = BuildInput {
             resolution: group[0].resolution.unwrap_or(Resolution::Auto),
             memory: stage.memory,
+            instruction_set: stage.instruction_set,
             embree: EmbreeSettings { threads: rayon::current_num_threads(), ..EmbreeSettings::default() },
             ..BuildInput::new(stage.scene, &index.value, light.light)
         };

@@ -3,6 +3,7 @@
 use super::Order;
 use crate::error::Result;
 use crate::geometry::LightPosition;
+use crate::geometry::batch::InstructionSet;
 use crate::memory::MemoryLimit;
 use crate::scene::{ImageSize, Scene};
 use crate::shadow::{Queries, SceneIndex};
@@ -22,6 +23,8 @@ pub struct Stage<'a> {
     pub memory: MemoryLimit,
     /// Orders in which there are queries.
     pub orders: Vec<Order>,
+    /// What native testers run on: the widest that this machine has, unless it is changed.
+    pub instruction_set: InstructionSet,
 }
 
 /// The queries of one light.
@@ -68,7 +71,8 @@ impl<'a> Stage<'a> {
             LightQueries { light: light.position(), orders: orders.iter().map(ordered).collect() }
         };
         let lights = scene.lights.iter().map(of_light).collect();
-        Ok(Stage { scene, index: SceneIndex::new(scene), size, lights, memory, orders: orders.to_vec() })
+        let (index, orders) = (SceneIndex::new(scene), orders.to_vec());
+        Ok(Stage { scene, index, size, lights, memory, orders, instruction_set: InstructionSet::best() })
     }
 
     /// Queries of all lights.

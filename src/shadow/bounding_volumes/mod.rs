@@ -28,7 +28,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     lights: Lights::All,
     build: &|input| {
         let _floats = StandardFloats::new();
-        Ok(Box::new(BoundingVolumes::new(input, InstructionSet::best())))
+        Ok(Box::new(BoundingVolumes::new(input, input.instruction_set)))
     },
     // In the worst case all triangles are one object, which every segment meets.
     expected_tests: |casters, queries| casters * queries,
