@@ -163,7 +163,9 @@ mod tests {
     const DENORMALS_ARE_ZERO: u32 = 1 << 6;
     const ROUND_UP: u32 = 2 << 13;
 
-    /// A sum and a product that each mode changes.
+    /// A sum and a product that each mode changes. A call of its own: numbers that are in registers already may be added
+    /// before a mode is set or after.
+    #[inline(never)]
     fn results() -> [f32; 3] {
         let tiny = black_box(f32::from_bits(1));
         [tiny + tiny, black_box(f32::MIN_POSITIVE) * black_box(0.5), black_box(1.0) + tiny]
