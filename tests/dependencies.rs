@@ -25,7 +25,8 @@ fn allowed() -> BTreeSet<String> {
 /// Whether an expression of licences leaves a choice that is allowed.
 fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     // Crates from before the standard wrote a slash for "or".
-    let parsed = spdx::Expression::parse_mode(expression, spdx::ParseMode::LAX).expect("a licence expression");
+    let parsed =
+        spdx::Expression::parse_mode(expression, spdx::ParseMode::LAX).expect("a licence expression");
     parsed.evaluate(|requirement| {
         requirement.license.id().is_some_and(|id| allowed.contains(id.name)) && requirement.addition.is_none()
     })

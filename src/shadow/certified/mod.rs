@@ -6,8 +6,11 @@
 //! the edges that two of them share are found ([`edges`]). For each cell that leaves a list, nearest first, and out of it a
 //! certificate: where the nearest surface is complete and covers the cell once, receivers on it are lit and what is
 //! behind it is dark ([`certificate`], TRUTH "Certified cells"). Queries are held against these two depths ([`headers`]);
-//! what is left walks through the lists, sixteen queries at a time ([`walk`]), and where f32 leaves a test open, f64 and
-//! exact arithmetic decide it.
+//! what is left walks through the lists, sixteen queries at a time ([`answer`], [`open`], [`walk`]), and where f32 leaves a
+//! test open, f64 and exact arithmetic decide it.
+//!
+//! That is the way of a view that is drawn once ([`view`]). Cells that are [`kept`] for many are made wherever triangles lie, as
+//! if receivers were infinitely far away, and a query is only filed in its cell.
 //!
 //! Everything is computed with bounds that stand where it is computed: cells are supersets, depths are intervals,
 //! a receiver's cell is that of its exact point. So no answer depends on the resolution, the number of threads or the

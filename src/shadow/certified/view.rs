@@ -20,16 +20,14 @@ impl Certified<'_> {
     /// With fewer cells than asked for where their lists would need more memory than there may be.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a resolution outside 1 to 4096, 2^28 triangles and more, or too little memory for what does not
+    /// [`Error::Usage`](crate::error::Error::Usage) for a resolution outside 1 to 4096, 2^28 triangles and more, or too little memory for what does not
     /// depend on the resolution, or for one cell along an edge.
     pub fn occluded(&self, points: &[SurfacePoint], resolution: u32, occluded: &mut [bool]) -> Result<Work> {
         let _floats = StandardFloats::new();
         let of_points = points.len() * (size_of::<u32>() + size_of::<f32>() + 3);
         let memory = self.checked(resolution, of_points)?;
-        let work = self.with_fewer_cells(resolution, |resolution| {
-            // Whatever was answered in vain is answered again.
-            self.at_resolution(points, resolution, memory, occluded)
-        })?;
+        let make = |resolution| self.at_resolution(points, resolution, memory, occluded);
+        let work = self.with_fewer_cells(resolution, make)?;
         Ok(Work { bytes: work.bytes + (of_points + self.fixed_bytes()) as u64, ..work })
     }
 
