@@ -168,6 +168,11 @@ impl<'b> Bins<'b> {
     }
 }
 
+/// The tiles at which one of several workers found something to look at.
+pub(super) fn touched(bins: &[Bins], grid: &TileGrid) -> impl Iterator<Item = u32> {
+    (0..grid.count() as u32).filter(|&tile| bins.iter().any(|bins| !bins.is_empty(tile)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

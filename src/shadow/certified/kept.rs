@@ -1,7 +1,7 @@
 //! Cells of all that a light sees, kept for whatever is asked later: the light buffer.
 
 use super::answer::{Asked, QUERIES, sum};
-use super::bins::{Bins, Budget};
+use super::bins::{Bins, Budget, touched};
 use super::certificate::{Header, Record, Run};
 use super::lists::Lister;
 use super::projection::{Projected, Projector};
@@ -83,8 +83,7 @@ impl<'a> Certified<'a> {
             Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let Some(bins) = self.bins(&survey, &budget) else { return LEAST_CELLS };
-        let is_there = |tile: &u32| bins.iter().any(|bins| !bins.is_empty(*tile));
-        let tiles = (0..grid.count() as u32).filter(is_there).count() as u64;
+        let tiles = touched(&bins, &grid).count() as u64;
         let triangles = self.scene.triangles.len() as u64;
         let a_cell = (size_of::<Header>() + size_of::<Run>() + size_of::<Record>()) as u64;
         let expected = |resolution: u32| {
@@ -100,12 +99,11 @@ impl<'a> Certified<'a> {
 
     fn keep_at(&self, resolution: u32, memory: MemoryLimit) -> Result<Kept<'a>> {
         let what = || format!("a light buffer of {resolution} cells along an edge");
-        let of_tiles =
-            6 * u64::from(resolution.div_ceil(8)).pow(2) * (size_of::<u32>() + size_of::<u64>()) as u64;
-        let memory = memory.beside(what(), of_tiles)?;
+        let grid = TileGrid::new(resolution);
+        let of_tiles = grid.count() * (size_of::<u32>() + size_of::<u64>());
+        let memory = memory.beside(what(), of_tiles as u64)?;
         let projector = Projector::new(self.light, resolution);
         let projected = self.projected(&projector);
-        let grid = TileGrid::new(resolution);
         let horizon = Horizon::endless(&grid);
         let cast = self.cast();
         let survey =
@@ -113,8 +111,7 @@ impl<'a> Certified<'a> {
         let too_long = || memory.exceeded(what());
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let bins = self.bins(&survey, &budget).ok_or_else(too_long)?;
-        let is_there = |tile: &u32| bins.iter().any(|bins| !bins.is_empty(*tile));
-        let stored: Vec<u32> = (0..grid.count() as u32).filter(is_there).collect();
+        let stored: Vec<u32> = touched(&bins, &grid).collect();
         let cells = stored.len() as u64 * u64::from(AREA);
         let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
         let of_cells = cells * (size_of::<Header>() + size_of::<Run>()) as u64;

@@ -59,10 +59,10 @@ impl Certified<'_> {
             ..lists.work(resolution)
         };
         drop(bins);
-        let (cast, size, space) = (self.cast(), self.size(), LightSpace::from(self.light));
+        let (size, space) = (self.size(), LightSpace::from(self.light));
         let asked = Asked {
             certified: *self,
-            cast,
+            cast: survey.cast,
             projector: &projector,
             space: &space,
             size,
