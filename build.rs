@@ -19,7 +19,7 @@ mod embree {
 
     const WITHOUT: &str = "or build without Embree: --no-default-features";
 
-    const SOURCES: [&str; 3] = ["ffi/shim.c", "ffi/queries.c", "ffi/curved.c"];
+    const SOURCES: [&str; 4] = ["ffi/shim.c", "ffi/queries.c", "ffi/first_hits.c", "ffi/curved.c"];
 
     /// What `src/embree` needs to be documented where nothing is installed: rustdoc wants types and the names in
     /// constants, and looks into no function.

@@ -224,4 +224,12 @@ uint32_t lb_scene_occluded(const LbScene *scene, const LbRay *rays, size_t count
 uint32_t lb_scene_crossed(const LbScene *scene, const LbRay *rays, size_t count, uint32_t grouping, uint32_t flags,
                           uint8_t *answers, LbCrossing *crossings, size_t capacity, size_t *found, LbError *error);
 
+/*
+ * primitives[i] = the triangle that the ray from `origin` in the direction of the 3 floats directions[3 * i] meets first,
+ * or LB_NO_PRIMITIVE, for i < count. Of a scene of triangles alone, without holes; light that passes through one changes
+ * nothing. `grouping` and threads as in lb_scene_occluded.
+ */
+uint32_t lb_scene_first_hits(const LbScene *scene, const float *origin, const float *directions, size_t count,
+                             uint32_t grouping, uint32_t flags, uint32_t *primitives, LbError *error);
+
 #endif

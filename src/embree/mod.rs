@@ -2,7 +2,7 @@
 //!
 //! A [`Device`] is Embree itself with its threads; an [`EmbreeScene`] is made of [`SceneParts`], built; and
 //! [`EmbreeScene::occluded`] answers many [`ShadowRay`]s. [`EmbreeScene::crossed`] tells which transparent primitives
-//! they pass through. Beneath lies the C shim in `ffi/`, which hides whether it is Embree 3 or 4.
+//! they pass through, and [`EmbreeScene::first_hits`] what rays from one point meet first. Beneath lies the C shim in `ffi/`, which hides whether it is Embree 3 or 4.
 //!
 //! Everything that can be chosen, for scenes and for queries, makes up an [`EmbreeMode`], which has a name.
 //!
@@ -17,6 +17,7 @@ mod crossings;
 mod curved;
 mod device;
 mod ffi;
+mod first_hits;
 mod holes;
 mod mode;
 mod query;
@@ -27,6 +28,7 @@ mod tests;
 
 pub use crossings::RayCrossing;
 pub use device::Device;
+pub use first_hits::{CheckedDirections, NO_HIT};
 pub use holes::{HoleMask, HoleWrap, Holes};
 pub use mode::EmbreeMode;
 pub use query::{CheckedRays, Coherence, Denormals, Grouping, PacketWidth, QueryOptions, ShadowRay};

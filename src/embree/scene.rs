@@ -213,6 +213,11 @@ impl EmbreeScene {
         (self.receiver == Receiver::Excluded).then_some(count)
     }
 
+    /// Whether there is nothing but triangles without holes.
+    pub(super) fn is_of_whole_triangles(&self) -> bool {
+        self.buffers.holes.is_none() && self.buffers.curved.as_slice().is_empty()
+    }
+
     pub(super) fn as_ptr(&self) -> *const ffi::LbScene {
         self.scene.as_ptr()
     }

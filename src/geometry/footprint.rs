@@ -31,6 +31,14 @@ impl Grid {
             .map(|(sx, sy)| [x + sx * self.half[0], y + sy * self.half[1]])
     }
 
+    /// The largest coordinates that a box has, as absolute values.
+    pub(crate) fn reach(&self) -> [f64; 2] {
+        [0, 1].map(|i| {
+            let last = self.origin[i] + self.step[i] * f64::from(self.count[i] - 1);
+            self.origin[i].abs().max(last.abs()) + self.half[i]
+        })
+    }
+
     /// First and last box along one axis that a range of coordinates can touch.
     pub(crate) fn touched(&self, axis: usize, range: [f64; 2]) -> Option<[u32; 2]> {
         let index = |value: f64| (value - self.origin[axis]) / self.step[axis];
@@ -93,7 +101,13 @@ impl Frame {
         }
         let on_grid = [c.x / c.z, c.y / c.z];
         let error = 4.0 * slack * (1.0 + on_grid[0].abs().max(on_grid[1].abs())) / c.z;
-        Some(OnGrid { on_grid, error })
+        Some(OnGrid { on_grid, error, least_depth: c.z - slack })
+    }
+
+    /// Whether a point is certainly behind the plane through the apex. For projections from the origin.
+    pub(crate) fn is_behind(&self, v: DVec3) -> bool {
+        let c = self.coordinates(v);
+        c.z < -RELATIVE_SLACK * c.abs().max_element()
     }
 
     /// How far the coordinates of a vector may be off whose own are wrong by one roundoff.
@@ -108,15 +122,17 @@ pub(crate) struct OnGrid {
     pub on_grid: [f64; 2],
     /// The most that either coordinate is wrong by.
     pub error: f64,
+    /// Its z is no less than this, which is positive.
+    pub least_depth: f64,
 }
 
 /// A linear function a x + b y + c on the grid plane whose values are wrong by at most `slack`.
 #[derive(Debug, Clone, Copy)]
-struct Linear {
-    a: f64,
-    b: f64,
-    c: f64,
-    slack: f64,
+pub(crate) struct Linear {
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+    pub slack: f64,
 }
 
 impl Linear {
@@ -124,25 +140,37 @@ impl Linear {
     /// product with an axis, 1 of the place on the grid, 1 of each product and 2 of the sums, 1 of the spread, and the
     /// rounding of an axis itself, which cameras have; below 16, and 32 are taken.
     fn edge(plane: &Plane, (offset, offset_error): (f64, f64), frame: &Frame, reach: [f64; 2]) -> Linear {
-        let [a, b, c] = frame.axes.map(|axis| axis.dot(plane.normal));
-        let size = frame.axes.map(|axis| axis.abs().dot(plane.size));
         match frame.projection {
-            Projection::Perspective => {
-                let slack = 32.0 * ROUNDOFF * (size[0] * reach[0] + size[1] * reach[1] + size[2]);
-                Linear { a, b, c, slack: slack + f64::MIN_POSITIVE }
-            }
+            Projection::Perspective => Linear::through_apex(plane, frame, reach),
             // The plane holds the direction of z.
             Projection::Parallel => {
+                let [a, b, _] = frame.axes.map(|axis| axis.dot(plane.normal));
+                let size = frame.axes.map(|axis| axis.abs().dot(plane.size));
                 let slack = 32.0 * ROUNDOFF * (size[0] * reach[0] + size[1] * reach[1] + offset.abs());
                 Linear { a, b, c: -offset, slack: slack + 2.0 * offset_error + f64::MIN_POSITIVE }
             }
         }
     }
 
+    /// The same for projections from the origin.
+    #[inline(always)]
+    pub fn through_apex(plane: &Plane, frame: &Frame, reach: [f64; 2]) -> Linear {
+        let [x, y, z] = &frame.axes;
+        let size = |axis: &DVec3| axis.abs().dot(plane.size);
+        let slack = 32.0 * ROUNDOFF * (size(x) * reach[0] + size(y) * reach[1] + size(z));
+        let [a, b, c] = [x.dot(plane.normal), y.dot(plane.normal), z.dot(plane.normal)];
+        Linear { a, b, c, slack: slack + f64::MIN_POSITIVE }
+    }
+
     /// Value at a box's centre, and how far it can change inside the box, slack included.
     fn over_box(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
-        let spread = self.a.abs() * grid.half[0] + self.b.abs() * grid.half[1];
-        (self.a * x + self.b * y + self.c, spread + self.slack)
+        (self.a * x + self.b * y + self.c, self.spread(grid))
+    }
+
+    /// How far the value can be from the one that is computed for a box's centre, anywhere in the box.
+    #[inline(always)]
+    pub fn spread(&self, grid: &Grid) -> f64 {
+        self.a.abs() * grid.half[0] + self.b.abs() * grid.half[1] + self.slack
     }
 }
 
@@ -214,10 +242,7 @@ impl Depth {
 impl Footprint {
     /// The projection of a triangle, or `None` if it certainly touches no box.
     pub(crate) fn new(grid: &Grid, frame: &Frame, planes: &OrientedPlanes) -> Option<Footprint> {
-        let reach: [f64; 2] = [0, 1].map(|i| {
-            let last = grid.origin[i] + grid.step[i] * f64::from(grid.count[i] - 1);
-            grid.origin[i].abs().max(last.abs()) + grid.half[i]
-        });
+        let reach = grid.reach();
         let corners = planes.corners.map(|u| frame.coordinates(u));
         let clipped = match frame.projection {
             Projection::Perspective => Clipped::new(corners, reach)?,

@@ -53,6 +53,7 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
+    #[inline(always)]
     pub fn through(a: DVec3, b: DVec3) -> Plane {
         let (ayz, azy) = (a.y * b.z, a.z * b.y);
         let (azx, axz) = (a.z * b.x, a.x * b.z);
@@ -89,6 +90,7 @@ impl Plane {
     /// Per component: 5 roundoffs of `size` from the normal, 1 from the product, 2 from the sums, 8 in all of
     /// size * |v|, and |normal| times the vector's own error; 12 roundoffs of size * |v| and twice size * error are
     /// above that, since |normal| <= size. Products with a tiny position may underflow, each by at most 2^-1074.
+    #[inline(always)]
     pub fn dot(&self, v: DVec3, error: DVec3) -> (f64, f64) {
         let n = self.normal;
         let value = (n.x * v.x + n.y * v.y) + n.z * v.z;
@@ -114,10 +116,36 @@ pub(crate) struct OrientedPlanes {
 }
 
 impl OrientedPlanes {
+    /// Of a triangle of f32 coordinates, whichever way its corners go round; `None` if its plane holds the apex.
+    #[inline(always)]
+    pub fn seen_from(apex: Vec3, corners: [Vec3; 3]) -> Option<OrientedPlanes> {
+        let [a, b, c] = [corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3()];
+        let u = a - apex.as_dvec3();
+        let own = Plane::through(b - a, c - a);
+        let (height, bound) = own.dot(u, rounded_once(u));
+        let is_turned = match Sign::certain(height, bound) {
+            Some(sign) => sign == Sign::Negative,
+            None => match orientation(apex, corners) {
+                Sign::Zero => return None,
+                sign => sign == Sign::Negative,
+            },
+        };
+        let [b, c, sign] = if is_turned { [c, b, DVec3::NEG_ONE] } else { [b, c, DVec3::ONE] };
+        let u = [u, b - apex.as_dvec3(), c - apex.as_dvec3()];
+        Some(OrientedPlanes {
+            corners: u,
+            edges: [Plane::through(u[0], b - a), Plane::through(u[1], c - b), Plane::through(u[2], a - c)],
+            offsets: [(0.0, 0.0); 3],
+            own: Plane { normal: own.normal * sign, size: own.size },
+            height: (height * sign.x, bound),
+        })
+    }
+
     /// Seen from a camera or a light at the origin of the coordinates.
+    #[inline(always)]
     pub fn from_apex(apex: DVec3, corners: [DVec3; 3]) -> OrientedPlanes {
         let [a, b, c] = corners;
-        let u = corners.map(|p| p - apex);
+        let u = [a - apex, b - apex, c - apex];
         let own = Plane::through(b - a, c - a);
         OrientedPlanes {
             corners: u,
@@ -178,6 +206,7 @@ impl OrientedPlanes {
 }
 
 /// More than one rounding of each coordinate.
+#[inline(always)]
 fn rounded_once(v: DVec3) -> DVec3 {
     v.abs() * (2.0 * ROUNDOFF)
 }

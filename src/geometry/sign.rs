@@ -27,6 +27,7 @@ impl Sign {
     }
 
     /// The sign of a computed value whose absolute error is at most `bound`, if that decides it.
+    #[inline(always)]
     pub fn certain(value: f64, bound: f64) -> Option<Sign> {
         if value > bound {
             Some(Sign::Positive)

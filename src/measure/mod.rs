@@ -3,6 +3,7 @@
 
 mod answer_view;
 pub mod bench;
+pub mod first_hits;
 pub mod fit;
 pub mod haines_greenberg;
 pub mod raghuvanshi_dhande;

@@ -1,7 +1,6 @@
 //! What a camera sees: for every pixel the first primitive on its ray, and the exact point on it.
 
 pub mod classical;
-mod curved_cast;
 pub mod hierarchy;
 mod hit;
 mod method;

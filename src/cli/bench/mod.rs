@@ -13,8 +13,9 @@ use crate::error::{Error, Result};
 use crate::film::FileSet;
 use crate::geometry::batch::InstructionSet;
 use crate::measure::bench::{Choice, Order, Plan, Stage, Truths, measure};
+use crate::measure::first_hits::{self, Look};
 use crate::memory::{self, MemoryLimit};
-use crate::report::bench::document::{Document, Heading, Part};
+use crate::report::bench::document::{Document, FirstHitsReport, Heading, Part};
 use crate::report::bench::{csv, plots, table};
 use crate::scene::ImageSize;
 use crate::shadow::Resolution;
@@ -72,6 +73,9 @@ pub struct Args {
     /// Queries of a scene that the arbiter is asked about beside those at which testers differ
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     truth_samples: usize,
+    /// Also who finds what the camera sees fastest: the t-buffer, or Embree with rays from the camera
+    #[arg(long, conflicts_with = "growth")]
+    first_hits: bool,
     /// How costs grow with triangles (built-in scenes with a size factor), with lights from 1 to 64 or with pixels
     /// from 0.25 to 8 million, in place of the table
     #[arg(long, value_name = "WHAT")]
@@ -110,6 +114,9 @@ pub fn run(args: &Args) -> Result<Outcome> {
                     let view = args.view(scene, messages)?;
                     output::expect_apart(&args.results(), &view.files)?;
                     parts[i].push(part(args, &view, threads[i], &Order::ALL, messages)?);
+                    if args.first_hits {
+                        document.first_hits.push(first_hits(args, &view, threads[i], messages)?);
+                    }
                 }
             }
         }
@@ -191,6 +198,16 @@ fn expect_lights(view: &View) -> Result<()> {
         true => Err(Error::Usage(format!("{}: the scene has no lights", view.scene.name))),
         false => Ok(()),
     }
+}
+
+/// Who finds what the camera of a view sees, with a number of threads.
+fn first_hits(args: &Args, view: &View, threads: Option<u16>, messages: Messages) -> Result<FirstHitsReport> {
+    messages.say(&format!("{}: first hits", view.scene.name));
+    let look = Look { scene: &view.scene, camera: &view.camera, size: view.size };
+    thread_pool(threads)?.install(|| {
+        let measured = first_hits::measure(look, args.repeats, args.finalists.into())?;
+        Ok(FirstHitsReport::new(look, &measured))
+    })
 }
 
 /// A view with a number of threads.

@@ -1,6 +1,7 @@
 //! `bench.json`: speed against error. Its keys are a contract; new ones may be added.
 
 use crate::measure::bench::{Machine, Measured, Plan, Ratio, Row, Side, Skipped, Stage};
+use crate::measure::first_hits::{self, Look};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -15,6 +16,9 @@ pub struct Document {
     pub rows: Vec<RowReport>,
     /// One entry a scene, its lights and a number of threads, in the order given.
     pub ratios: Vec<RatioReport>,
+    /// Who finds what the camera sees, if that was asked for: one entry a scene and a number of threads.
+    #[serde(default)]
+    pub first_hits: Vec<FirstHitsReport>,
     /// What did not take part.
     pub skipped: Vec<SkippedReport>,
     /// How costs grow, if that was asked for.
@@ -93,6 +97,80 @@ pub struct RatioReport {
     pub query_between: Option<[String; 2]>,
     /// Who was for frames.
     pub frame_between: Option<[String; 2]>,
+}
+
+/// First hits of a view.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FirstHitsReport {
+    /// The scene.
+    pub scene: String,
+    /// Its triangles and curved surfaces.
+    pub primitives: u64,
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+    /// Threads, of Embree's pool too.
+    pub threads: u64,
+    /// The t-buffer first, then Embree's modes.
+    pub rows: Vec<FirstHitRow>,
+    /// Embree's fastest over the t-buffer by `query_seconds`; `null` without Embree.
+    pub query: Option<f64>,
+    /// By `frame_seconds`, chosen separately.
+    pub frame: Option<f64>,
+    /// Why Embree did not take part.
+    pub skipped: Option<String>,
+}
+
+/// One that finds first hits.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FirstHitRow {
+    /// `t-buffer`, or a mode of Embree.
+    pub method: String,
+    /// The order of Embree's rays: `rows` or `tiles`.
+    pub order: Option<Cow<'static, str>>,
+    /// To build; the t-buffer has nothing to build.
+    pub build_seconds: f64,
+    /// To find the first triangle of every pixel when all is built.
+    pub query_seconds: f64,
+    /// From indexed triangles to the first triangle of every pixel.
+    pub frame_seconds: f64,
+    /// Turns that these are medians of.
+    pub rounds: u64,
+    /// Whether it took part in the interleaved rounds.
+    pub interleaved: bool,
+    /// The shortest and the longest of `frame_seconds`.
+    pub frame_spread: [f64; 2],
+    /// Pixels at which it sees another triangle than the t-buffer.
+    pub differ: u64,
+}
+
+impl FirstHitsReport {
+    /// Measured with the threads of the pool that this is called in.
+    pub fn new(look: Look, measured: &first_hits::Measured) -> FirstHitsReport {
+        let row = |row: &first_hits::Row| FirstHitRow {
+            method: row.method.clone(),
+            order: row.order.map(Cow::Borrowed),
+            build_seconds: row.build.median(),
+            query_seconds: row.query.median(),
+            frame_seconds: row.frame.median(),
+            rounds: row.frame.count() as u64,
+            interleaved: row.in_rounds,
+            frame_spread: row.frame.spread(),
+            differ: row.differ,
+        };
+        FirstHitsReport {
+            scene: look.scene.name.clone(),
+            primitives: u64::from(look.scene.primitive_count()),
+            width: look.size.width,
+            height: look.size.height,
+            threads: rayon::current_num_threads() as u64,
+            rows: measured.rows.iter().map(row).collect(),
+            query: measured.query(),
+            frame: measured.frame(),
+            skipped: measured.skipped.clone(),
+        }
+    }
 }
 
 /// One that did not take part.
@@ -230,6 +308,7 @@ impl Document {
             repeats: plan.rounds,
             rows: Vec::new(),
             ratios: Vec::new(),
+            first_hits: Vec::new(),
             skipped: Vec::new(),
             growth: Vec::new(),
         }

@@ -1,6 +1,6 @@
 //! The table that a person reads: who took part in the rounds, and all but Embree of those who did not.
 
-use super::document::{Document, RatioReport, RowReport};
+use super::document::{Document, FirstHitsReport, RatioReport, RowReport};
 use crate::film::grouped;
 use std::fmt::Write;
 
@@ -23,6 +23,7 @@ pub fn table(document: &Document) -> String {
             }
         }
     }
+    document.first_hits.iter().for_each(|report| first_hits(&mut text, report));
     for skipped in &document.skipped {
         let _ = writeln!(
             text,
@@ -42,21 +43,62 @@ pub fn table(document: &Document) -> String {
     text
 }
 
+fn first_hits(text: &mut String, report: &FirstHitsReport) {
+    let _ = writeln!(
+        text,
+        "\n{}: first hits of {} primitives, {} x {}, {}",
+        report.scene,
+        grouped(report.primitives),
+        report.width,
+        report.height,
+        threads(report.threads),
+    );
+    let _ = writeln!(
+        text,
+        "  {:<36}{:<10}{:>10}{:>10}{:>10}{:>8}{:>10}",
+        "method", "order", "build ms", "rays ms", "frame ms", "+-%", "differ"
+    );
+    for row in report.rows.iter().filter(|row| row.interleaved) {
+        let [shortest, longest] = row.frame_spread;
+        let _ = writeln!(
+            text,
+            "  {:<36}{:<10}{:>10.1}{:>10.1}{:>10.1}{:>8.0}{:>10}",
+            row.method,
+            row.order.as_deref().unwrap_or("-"),
+            row.build_seconds * 1e3,
+            row.query_seconds * 1e3,
+            row.frame_seconds * 1e3,
+            50.0 * (longest - shortest) / row.frame_seconds.max(1e-9),
+            grouped(row.differ),
+        );
+    }
+    if let Some(why) = &report.skipped {
+        let _ = writeln!(text, "  Embree: {why}");
+    }
+    if let Some((query, frame)) = report.query.zip(report.frame) {
+        let _ = writeln!(text, "  Embree over t-buffer: rays {query:.2}, frame {frame:.2}");
+    }
+}
+
+fn threads(count: u64) -> String {
+    if count == 1 { "a thread".into() } else { format!("{} threads", count) }
+}
+
 fn lights(count: u64) -> String {
     if count == 1 { "a light".into() } else { format!("{} lights", grouped(count)) }
 }
 
 fn heading(text: &mut String, row: &RowReport) {
-    let threads = if row.threads == 1 { "a thread".into() } else { format!("{} threads", row.threads) };
     let _ = writeln!(
         text,
-        "\n{}: {} primitives, {}, {} x {}, {} queries, {threads}",
+        "\n{}: {} primitives, {}, {} x {}, {} queries, {}",
         row.scene,
         grouped(row.primitives),
         lights(row.lights),
         row.width,
         row.height,
         grouped(row.queries),
+        threads(row.threads),
     );
     let _ = writeln!(
         text,

@@ -1,9 +1,9 @@
 //! A triangle against the sixteen cells of a block at once.
 
 use super::cell_lists::Item;
-use super::masks::bits;
 use super::tiles::{AREA, BLOCK};
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::masks::bits;
 
 /// What an edge says of the centre of a cell: a x + b y + at, positive inside, x and y counted from a first cell.
 #[derive(Debug, Clone, Copy)]

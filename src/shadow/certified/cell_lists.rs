@@ -1,8 +1,8 @@
 //! What the cells of one tile hold: a linked list for each.
 
 use super::block::Sixteen;
-use super::masks::each_bit;
 use super::tiles::AREA;
+use crate::geometry::masks::each_bit;
 
 /// A triangle in a cell.
 #[derive(Debug, Clone, Copy)]

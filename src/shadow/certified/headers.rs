@@ -1,10 +1,10 @@
 //! Queries against the headers of their cells.
 
 use super::certificate::Header;
-use super::dispatch::for_instruction_sets;
 use super::projection::Projector;
 use super::receivers::OPEN;
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::dispatch::for_instruction_sets;
 
 /// Headers of all cells, and how well depths are known that are held against them.
 pub(super) struct Headers<'a> {

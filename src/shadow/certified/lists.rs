@@ -5,15 +5,15 @@ use super::block::{Patch, Seen, Sixteen, any_above};
 use super::cell_lists::{CellLists, Item};
 use super::certificate::{Entries, Header, Kinds, Record, Run, certify};
 use super::corners::{Corners, LANES};
-use super::dispatch::for_instruction_sets;
 use super::edges::Edges;
 use super::facing::{Facing, exactly};
-use super::masks::each_bit;
 use super::projection::{Projected, Projector};
 use super::receivers::Horizon;
 use super::small::Patches;
 use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::dispatch::for_instruction_sets;
+use crate::geometry::masks::each_bit;
 use crate::scene::Scene;
 
 /// All that the lists of tiles are made of.

@@ -11,8 +11,8 @@
 //! 2 H, by 7 r H in all: [`Projector::delta`] is 10 r H. Depths outside 2^-60 to 2^60 are not projected, so that
 //! neither a quotient nor a product overflows, and what underflows is far below r H.
 
-use super::dispatch::for_instruction_sets;
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::dispatch::for_instruction_sets;
 use glam::Vec3;
 
 /// Unit roundoff of f32.

@@ -1,11 +1,11 @@
 //! Receivers filed in cells: where anybody asks, and how far away the farthest in each cell is.
 
-use super::dispatch::for_instruction_sets;
 use super::projection::{Projected, Projector, cell_and_border};
 use super::tiles::{AREA, TileGrid, Tiles};
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
 use crate::shadow::light_buffer::cells::Cells;

@@ -3,11 +3,11 @@
 use super::block::{CellBox, Cover, Edge, Patch, Seen, Sixteen, depths};
 use super::corners::{Corners, LANES};
 use super::facing::Facing;
-use super::masks::bits;
 use super::projection::{Projector, ROUNDOFF, cell_and_border, larger};
 use super::receivers::Horizon;
 use super::tiles::{AREA, EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::masks::bits;
 
 /// An edge of each triangle; see [`Edge`].
 #[derive(Debug, Default)]

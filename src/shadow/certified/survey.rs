@@ -2,13 +2,13 @@
 
 use super::bins::{Bins, Caller};
 use super::corners::{Corners, LANES};
-use super::dispatch::for_instruction_sets;
 use super::is_plain;
-use super::masks::{bits, each_bit};
 use super::projection::{Projected, Projector, cell_and_border};
 use super::receivers::Horizon;
 use super::tiles::{EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::dispatch::for_instruction_sets;
+use crate::geometry::masks::{bits, each_bit};
 use crate::scene::Scene;
 use std::ops::Range;
 

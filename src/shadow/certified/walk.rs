@@ -2,15 +2,15 @@
 
 use super::cell_lists::Item;
 use super::certificate::Record;
-use super::dispatch::for_instruction_sets;
 use super::fetch::fetch;
 use super::making::Lists;
-use super::masks::{bits, each_bit};
 use super::open::Open;
 use super::projection::{Projected, ROUNDOFF, larger, smaller};
 use super::tiles::BLOCK;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
+use crate::geometry::dispatch::for_instruction_sets;
+use crate::geometry::masks::{bits, each_bit};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
 use crate::shadow::{Counters, precise};

@@ -1,12 +1,12 @@
 //! Sixteen answers as the bits of a number.
 
-use super::tiles::BLOCK;
-use crate::geometry::batch::InstructionSet;
+use super::batch::InstructionSet;
+use super::batch::LANES;
 
 /// A bit for each lane that is not zero: of lanes that are 0 or 1. Compilers make a long way of this loop, which
 /// both instruction sets have an instruction for.
 #[inline(always)]
-pub(super) fn bits(set: InstructionSet, lanes: &[u32; BLOCK]) -> u32 {
+pub(crate) fn bits(set: InstructionSet, lanes: &[u32; LANES]) -> u32 {
     match set {
         // SAFETY: whoever runs on such a set has asked whether it is there.
         #[cfg(target_arch = "x86_64")]
@@ -20,12 +20,12 @@ pub(super) fn bits(set: InstructionSet, lanes: &[u32; BLOCK]) -> u32 {
 
 #[cfg(target_arch = "x86_64")]
 mod x86_64 {
-    use super::BLOCK;
+    use super::LANES;
     use std::arch::x86_64::*;
 
     #[inline]
     #[target_feature(enable = "avx2")]
-    pub fn bits_avx2(lanes: &[u32; BLOCK]) -> u32 {
+    pub fn bits_avx2(lanes: &[u32; LANES]) -> u32 {
         let half = |first: usize| {
             // SAFETY: eight of sixteen lanes.
             let eight = unsafe { _mm256_loadu_si256(lanes.as_ptr().add(first).cast()) };
@@ -36,7 +36,7 @@ mod x86_64 {
 
     #[inline]
     #[target_feature(enable = "avx512f")]
-    pub fn bits_avx512(lanes: &[u32; BLOCK]) -> u32 {
+    pub fn bits_avx512(lanes: &[u32; LANES]) -> u32 {
         // SAFETY: sixteen lanes.
         let sixteen = unsafe { _mm512_loadu_si512(lanes.as_ptr().cast()) };
         u32::from(_mm512_test_epi32_mask(sixteen, sixteen))
@@ -45,7 +45,7 @@ mod x86_64 {
 
 /// Calls for the place of each bit that is set.
 #[inline(always)]
-pub(super) fn each_bit(mut bits: u32, mut call: impl FnMut(usize)) {
+pub(crate) fn each_bit(mut bits: u32, mut call: impl FnMut(usize)) {
     while bits != 0 {
         call(bits.trailing_zeros() as usize);
         bits &= bits - 1;
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn every_set_gives_the_same_bits() {
-        for number in (0..1 << BLOCK).step_by(7) {
+        for number in (0..1 << LANES).step_by(7) {
             let lanes = std::array::from_fn(|i| number >> i & 1);
             let sets = [InstructionSet::Portable, InstructionSet::Avx2, InstructionSet::Avx512];
             for set in sets.into_iter().filter(|set| set.is_available()) {

@@ -41,4 +41,4 @@ macro_rules! for_instruction_sets {
     };
 }
 
-pub(super) use for_instruction_sets;
+pub(crate) use for_instruction_sets;
