@@ -216,6 +216,20 @@ plant query-on-the-wrong-side-of-a-seam $cells/open.rs \
     'let is_known = (a.abs() <= depth)' 'let is_known = (a.abs() <= 4.0 * depth.abs())' \
     queries_beyond_the_edge_of_their_side_are_lost
 
+first_hits=src/visibility/t_buffer
+
+plant ray-along-an-edge-by-its-rounding $first_hits/cast.rs \
+    '* 1.000_002 + 1e-37) as f32' '* 1e-30) as f32' \
+    corners_on_rays_are_seen_as_by_classical_ray_tracing
+
+plant nearest-by-its-rounding $first_hits/draw.rs \
+    'let around = here.abs() * ALLOWANCE + w.slack;' 'let around = 0.0 * w.slack;' \
+    corners_on_rays_are_seen_as_by_classical_ray_tracing
+
+plant hidden-by-its-farthest-corner $first_hits/bins.rs \
+    'nearest[i] = larger(larger(a, b), c);' 'nearest[i] = smaller(smaller(a, b), c);' \
+    crowds_are_seen_as_by_classical_ray_tracing
+
 [ "$planted" -gt 0 ] || { echo "no planted bug is called $only"; exit 2; }
 rm -rf "$copy"
 echo "$((planted - survived)) passed, $survived failed"

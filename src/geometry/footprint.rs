@@ -87,6 +87,7 @@ impl Frame {
         Frame { axes, dual, projection: Projection::Parallel }
     }
 
+    #[inline(always)]
     fn coordinates(&self, v: DVec3) -> DVec3 {
         DVec3::new(self.dual[0].dot(v), self.dual[1].dot(v), self.dual[2].dot(v))
     }
@@ -94,20 +95,20 @@ impl Frame {
     /// Where a point in front of the apex is on the plane z = 1; `None` if it is too near to the plane through the
     /// apex, or behind it. For projections from the origin.
     pub(crate) fn project(&self, v: DVec3) -> Option<OnGrid> {
-        let c = self.coordinates(v);
-        let slack = RELATIVE_SLACK * c.abs().max_element();
-        if c.z.is_nan() || c.z <= 1024.0 * slack {
-            return None;
-        }
-        let on_grid = [c.x / c.z, c.y / c.z];
-        let error = 4.0 * slack * (1.0 + on_grid[0].abs().max(on_grid[1].abs())) / c.z;
-        Some(OnGrid { on_grid, error, least_depth: c.z - slack })
+        let point = self.look_at(v);
+        point.is_before.then_some(point)
     }
 
-    /// Whether a point is certainly behind the plane through the apex. For projections from the origin.
-    pub(crate) fn is_behind(&self, v: DVec3) -> bool {
+    /// The same of any point, without a branch.
+    #[inline(always)]
+    pub(crate) fn look_at(&self, v: DVec3) -> OnGrid {
         let c = self.coordinates(v);
-        c.z < -RELATIVE_SLACK * c.abs().max_element()
+        let slack = RELATIVE_SLACK * c.abs().max_element();
+        let on_grid = [c.x / c.z, c.y / c.z];
+        let error = 4.0 * slack * (1.0 + on_grid[0].abs().max(on_grid[1].abs())) / c.z;
+        // With NaN, neither.
+        let (is_before, is_behind) = (c.z > 1024.0 * slack, c.z < -slack);
+        OnGrid { on_grid, error, least_depth: c.z - slack, is_before, is_behind }
     }
 
     /// How far the coordinates of a vector may be off whose own are wrong by one roundoff.
@@ -119,11 +120,16 @@ impl Frame {
 /// A projected point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OnGrid {
+    /// Means something if the point is before the apex, as all that follows but the last.
     pub on_grid: [f64; 2],
     /// The most that either coordinate is wrong by.
     pub error: f64,
     /// Its z is no less than this, which is positive.
     pub least_depth: f64,
+    /// Whether it is before the plane through the apex, and not too near to that to be projected.
+    pub is_before: bool,
+    /// Whether it is certainly behind the plane through the apex.
+    pub is_behind: bool,
 }
 
 /// A linear function a x + b y + c on the grid plane whose values are wrong by at most `slack`.

@@ -22,6 +22,7 @@ mod double_double;
 mod dyadic;
 pub mod exact_number;
 pub mod expansion;
+pub(crate) mod fetch;
 #[cfg(test)]
 mod filter_tests;
 pub mod footprint;

@@ -116,31 +116,6 @@ pub(crate) struct OrientedPlanes {
 }
 
 impl OrientedPlanes {
-    /// Of a triangle of f32 coordinates, whichever way its corners go round; `None` if its plane holds the apex.
-    #[inline(always)]
-    pub fn seen_from(apex: Vec3, corners: [Vec3; 3]) -> Option<OrientedPlanes> {
-        let [a, b, c] = [corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3()];
-        let u = a - apex.as_dvec3();
-        let own = Plane::through(b - a, c - a);
-        let (height, bound) = own.dot(u, rounded_once(u));
-        let is_turned = match Sign::certain(height, bound) {
-            Some(sign) => sign == Sign::Negative,
-            None => match orientation(apex, corners) {
-                Sign::Zero => return None,
-                sign => sign == Sign::Negative,
-            },
-        };
-        let [b, c, sign] = if is_turned { [c, b, DVec3::NEG_ONE] } else { [b, c, DVec3::ONE] };
-        let u = [u, b - apex.as_dvec3(), c - apex.as_dvec3()];
-        Some(OrientedPlanes {
-            corners: u,
-            edges: [Plane::through(u[0], b - a), Plane::through(u[1], c - b), Plane::through(u[2], a - c)],
-            offsets: [(0.0, 0.0); 3],
-            own: Plane { normal: own.normal * sign, size: own.size },
-            height: (height * sign.x, bound),
-        })
-    }
-
     /// Seen from a camera or a light at the origin of the coordinates.
     #[inline(always)]
     pub fn from_apex(apex: DVec3, corners: [DVec3; 3]) -> OrientedPlanes {

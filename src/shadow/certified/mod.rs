@@ -24,7 +24,6 @@ mod certificate;
 mod corners;
 mod edges;
 mod facing;
-mod fetch;
 mod headers;
 mod kept;
 mod large;

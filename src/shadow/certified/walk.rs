@@ -2,7 +2,6 @@
 
 use super::cell_lists::Item;
 use super::certificate::Record;
-use super::fetch::fetch;
 use super::making::Lists;
 use super::open::Open;
 use super::projection::{Projected, ROUNDOFF, larger, smaller};
@@ -10,6 +9,7 @@ use super::tiles::BLOCK;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
+use crate::geometry::fetch::fetch;
 use crate::geometry::masks::{bits, each_bit};
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;

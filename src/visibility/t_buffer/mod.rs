@@ -11,6 +11,7 @@ mod band;
 mod bins;
 mod cast;
 mod curved_cast;
+mod draw;
 mod places;
 mod view;
 
@@ -20,10 +21,11 @@ use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::scene::{Camera, ImageSize, Scene};
-use band::{Band, NOTHING};
-use bins::Bins;
-use cast::Cast;
+use band::Band;
+use bins::Touched;
+use cast::{Casts, GROUP};
 use curved_cast::CurvedCast;
+use draw::draw;
 use rayon::prelude::*;
 use view::View;
 
@@ -39,10 +41,13 @@ pub fn first_hits_on(set: InstructionSet, scene: &Scene, camera: &Camera, size: 
         return classical::first_hits(scene, camera, size);
     };
     let mut bands = Band::all(&view);
-    let places = places::places(&view);
-    for portion in bins::portions(&view, &places) {
+    let places = places::places(set, &view);
+    for portion in bins::portions(set, &view, &places) {
         let numbered = bands.par_iter_mut().enumerate().in_standard_floats();
-        numbered.for_each(|(number, band)| draw(set, &view, &portion, number, band));
+        numbered.for_each_init(Vec::new, |sorted, (number, band)| {
+            bins::front_to_back(&view, &portion, number, sorted);
+            draw_sorted(set, &view, sorted, band);
+        });
     }
     for portion in CurvedCast::portions(&view) {
         bands.par_iter_mut().in_standard_floats().for_each(|band| {
@@ -52,28 +57,31 @@ pub fn first_hits_on(set: InstructionSet, scene: &Scene, camera: &Camera, size: 
         });
     }
     let mut primitives = Vec::with_capacity(size.pixels());
-    for row in bands.iter().flat_map(Band::lines) {
-        primitives.extend(row.iter().map(|&primitive| (primitive != NOTHING).then_some(primitive)));
-    }
+    bands.iter().flat_map(Band::lines).for_each(|line| primitives.extend(line));
     FirstHits { size, primitives, tests: bands.iter().map(|band| band.tests).sum() }
 }
 
 for_instruction_sets! {
-    /// Draws what is in the bins of one band.
-    fn draw = draw_body, (view: &View, portion: &[Bins], number: usize, band: &mut Band)
+    /// Draws what is in a band.
+    fn draw_sorted = draw_sorted_body, (view: &View, sorted: &[Touched], band: &mut Band)
 }
 
 #[inline(always)]
-fn draw_body(set: InstructionSet, view: &View, portion: &[Bins], number: usize, band: &mut Band) {
-    let [first_row, end_row] = band.rows();
-    for bins in portion {
-        for touched in bins.of(number) {
-            let rows = [touched.rows[0].max(first_row), touched.rows[1].min(end_row - 1)];
-            if band.hides(touched.columns, rows, touched.nearness) {
-                continue;
-            }
-            if let Some(cast) = Cast::new(view, touched.primitive) {
-                band.draw(set, view, &cast, touched.columns, rows);
+fn draw_sorted_body(set: InstructionSet, view: &View, sorted: &[Touched], band: &mut Band) {
+    let mut group = [Touched::NOTHING; GROUP];
+    let mut next = 0;
+    while next < sorted.len() {
+        let mut count = 0;
+        while count < GROUP && next < sorted.len() {
+            group[count] = sorted[next];
+            band.fetch(&sorted[next]);
+            count += usize::from(!band.hides(&sorted[next]));
+            next += 1;
+        }
+        let casts = Casts::new(view, &group);
+        for (i, touched) in group[..count].iter().enumerate() {
+            if let Some(cast) = casts.get(view, i) {
+                draw(set, view, band, &cast, touched);
             }
         }
     }
@@ -171,6 +179,29 @@ mod tests {
             let scene = scene(&shrunk.collect::<Vec<_>>());
             let camera = Camera::look_at("c", Vec3::from(eye), Vec3::ZERO, Vec3::Y, if narrow { 8.0 } else { 110.0 });
             let size = ImageSize { width: 83, height: 70 };
+            let traced = classical::first_hits(&scene, &camera, size);
+            for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+                let filled = first_hits_on(set, &scene, &camera, size);
+                prop_assert_eq!(&filled.primitives, &traced.primitives, "{:?}", set);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+        /// Corners lie on rays, exactly, so that edges and ties are met by rays that nothing but exact signs decides.
+        #[test]
+        fn corners_on_rays_are_seen_as_by_classical_ray_tracing(
+            corners in prop::collection::vec(prop::array::uniform3((0u32..41, 0u32..35, -2i32..3)), 1..12),
+            narrow in any::<bool>(),
+        ) {
+            let target = Vec3::new(0.3, -0.2, -1.0);
+            let camera = Camera::look_at("c", Vec3::ZERO, target, Vec3::Y, if narrow { 9.0 } else { 75.0 });
+            let size = ImageSize { width: 41, height: 35 };
+            let raster = camera.raster(size);
+            let corner = |(x, y, power): (u32, u32, i32)| camera.direction(&raster, x, y) * 2f32.powi(power);
+            let scene = scene(&corners.into_iter().map(|t| t.map(corner)).collect::<Vec<_>>());
             let traced = classical::first_hits(&scene, &camera, size);
             for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
                 let filled = first_hits_on(set, &scene, &camera, size);

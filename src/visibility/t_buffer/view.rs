@@ -3,7 +3,7 @@
 use crate::geometry::footprint::{Frame, Grid};
 use crate::geometry::ray_triangle::RayParameter;
 use crate::scene::{Camera, ImageSize, Raster, Scene};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// The largest image at distance 1, from its centre, on which [`pixel_grid`] bounds the rays: their depth
 /// is 1 within 2^-22 of their length.
@@ -16,11 +16,17 @@ pub(super) const PLACE_ERROR: f64 = 1.0 / 1024.0;
 pub(super) struct View<'a> {
     pub scene: &'a Scene,
     pub camera: &'a Camera,
+    /// Where the camera is.
+    pub apex: DVec3,
     pub raster: Raster,
     pub grid: Grid,
     pub frame: Frame,
     /// Of the grid.
     pub reach: [f64; 2],
+    /// From pixel to pixel, along the axis on which it is less.
+    pub smallest_step: f64,
+    /// Whether some triangles are not there everywhere.
+    pub has_holes: bool,
     /// How far beside a vertex' place a ray can be that passes it, along each axis and in pixels.
     pub margins: [f32; 2],
     /// More than any ray's depth differs from 1.
@@ -43,11 +49,14 @@ impl<'a> View<'a> {
         Some(View {
             scene,
             camera,
+            apex: camera.origin.as_dvec3(),
             raster,
             reach: grid.reach(),
-            grid,
             frame: Frame::perspective(x, y, z),
+            smallest_step: grid.step[0].abs().min(grid.step[1].abs()),
+            has_holes: !scene.alpha_masks.is_empty(),
             margins,
+            grid,
             depth_error: length / 2_097_152.0,
         })
     }

@@ -2,7 +2,7 @@
 
 /// Has something fetched into the nearest cache, and does not wait for it.
 #[inline(always)]
-pub(super) fn fetch<T>(value: &T) {
+pub(crate) fn fetch<T>(value: &T) {
     // SAFETY: a hint, which nothing depends on.
     #[cfg(target_arch = "x86_64")]
     unsafe {
