@@ -282,10 +282,9 @@ impl Spans<'_> {
     #[inline(always)]
     pub fn of_row(&self, view: &View, of_row: &[f64; 3], [first, last]: [u32; 2]) -> Option<[u32; 2]> {
         let (mut low, mut high) = (f64::from(first), f64::from(last));
-        for k in 0..3 {
-            let side = &self.cast.sides[k];
-            let at_zero = side.ramp.at(of_row[k], view.grid.origin[0]) + side.slack;
-            let crossing = -at_zero * self.per_step[k];
+        for ((side, of_row), per_step) in self.cast.sides.iter().zip(of_row).zip(self.per_step) {
+            let at_zero = side.ramp.at(*of_row, view.grid.origin[0]) + side.slack;
+            let crossing = -at_zero * per_step;
             // A little wider than the roundings of these lines.
             let margin = 1e-9 + crossing.abs() * 1e-13;
             if side.step > 0.0 {

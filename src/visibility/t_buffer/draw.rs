@@ -121,7 +121,8 @@ fn sixteen<const COLUMNS: usize>(set: InstructionSet, run: &Run, band: &mut Band
         let around = here.abs() * ALLOWANCE + w.slack;
         let (low, high) = (here - around, here + around);
         let is_touched = !is_outside & (x < count[0]) & (y < count[1]);
-        let may_show = is_touched & !(high < least[i]);
+        let is_behind = high < least[i];
+        let may_show = is_touched & !is_behind;
         let shows = may_show & is_inside & (low > most[i]) & certainty;
         touched[i] = u32::from(is_touched);
         undecided[i] = u32::from(may_show & !shows);
@@ -144,8 +145,8 @@ fn sixteen<const COLUMNS: usize>(set: InstructionSet, run: &Run, band: &mut Band
 #[inline(always)]
 fn places<const COLUMNS: usize>(band: &Band, pixel: [u32; 2], rows: u32) -> [usize; LANES] {
     let mut places = [0; LANES];
-    for down in 0..LANES / COLUMNS {
-        places[down] = band.place([pixel[0], pixel[1] + (down as u32).min(rows - 1)]);
+    for (down, place) in places.iter_mut().take(LANES / COLUMNS).enumerate() {
+        *place = band.place([pixel[0], pixel[1] + (down as u32).min(rows - 1)]);
     }
     places
 }
