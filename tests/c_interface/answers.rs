@@ -48,7 +48,13 @@ fn input(scene: &Scene, light: Vec3, points: &[Vec3]) -> (Vec<u8>, FirstHits) {
 }
 
 /// The library's answers to points that face the light.
-fn asked(tester: &str, scene: &Scene, light: LightPosition, receivers: Receivers, points: &[SurfacePoint]) -> Vec<u8> {
+fn asked(
+    tester: &str,
+    scene: &Scene,
+    light: LightPosition,
+    receivers: Receivers,
+    points: &[SurfacePoint],
+) -> Vec<u8> {
     let index = SceneIndex::new(scene);
     let input = BuildInput { receivers, ..BuildInput::new(scene, &index, light) };
     let tester = (find(tester).unwrap().build)(&input).unwrap();
@@ -65,7 +71,8 @@ fn differences<T: PartialEq>(found: &[T], expected: &[T]) -> Vec<usize> {
 #[test]
 fn a_million_queries_are_answered_as_the_library_and_the_program_do() {
     let scene = formats::load(&root().join(SCENE)).unwrap();
-    let is_plain = scene.curved.is_empty() && scene.alpha_masks.is_empty() && !scene.has_transparent_casters();
+    let is_plain =
+        scene.curved.is_empty() && scene.alpha_masks.is_empty() && !scene.has_transparent_casters();
     assert!(is_plain, "C has triangles alone");
     let light = scene.lights.iter().find(|light| light.name == LIGHT).unwrap();
     let LightPosition::At(position) = light.position() else { panic!("a light at a point") };

@@ -216,7 +216,10 @@ fn a_header_that_says_something_else_does_not_pass() {
         ("const uint32_t *triangles, uint64_t count, uint8_t *answers", "uint64_t count, uint8_t *answers"),
         ("uint32_t threads, const lightbuffer_ray *rays", "int32_t threads, const lightbuffer_ray *rays"),
         ("uint64_t lightbuffer_tester_bytes", "uint32_t lightbuffer_tester_bytes"),
-        ("const lightbuffer_scene *scene, const lightbuffer_light", "lightbuffer_scene *scene, const lightbuffer_light"),
+        (
+            "const lightbuffer_scene *scene, const lightbuffer_light",
+            "lightbuffer_scene *scene, const lightbuffer_light",
+        ),
         ("void lightbuffer_scene_free", "int32_t lightbuffer_scene_free"),
         ("#define LIGHTBUFFER_OCCLUDED 1", "#define LIGHTBUFFER_OCCLUDED 2"),
         ("UINT32_C(0xFFFFFFFF)", "UINT32_C(0xFFFFFFFE)"),
@@ -245,14 +248,17 @@ fn every_function_and_constant_of_the_header_is_checked() {
     let header = header();
     let declared: BTreeSet<&str> = header
         .lines()
-        .filter_map(|line| line.strip_prefix("LIGHTBUFFER_API ")?.split('(').next()?.split([' ', '*']).next_back())
+        .filter_map(|line| {
+            line.strip_prefix("LIGHTBUFFER_API ")?.split('(').next()?.split([' ', '*']).next_back()
+        })
         .collect();
     let known: BTreeSet<&str> = functions().iter().map(|(name, _)| *name).collect();
     assert_eq!(declared, known);
     let map = std::fs::read_to_string(root().join("scripts/lightbuffer.map")).unwrap();
     assert_eq!(words(&map, "lightbuffer_"), known);
 
-    let defined = header.lines().filter_map(|line| line.strip_prefix("#define LIGHTBUFFER_")?.split(' ').next());
+    let defined =
+        header.lines().filter_map(|line| line.strip_prefix("#define LIGHTBUFFER_")?.split(' ').next());
     let not_values = ["H", "API"];
     let defined: BTreeSet<&str> =
         defined.filter(|name| !name.starts_with("VERSION") && !not_values.contains(name)).collect();
@@ -276,7 +282,8 @@ fn the_version_of_the_header_is_that_of_the_crate() {
 #[test]
 fn the_header_is_clean_c89_and_c99_and_cpp() {
     let folder = scratch("header/dialects");
-    for (language, standard) in [("c", "c89"), ("c", "c99"), ("c", "c17"), ("c++", "c++98"), ("c++", "c++20")] {
+    for (language, standard) in [("c", "c89"), ("c", "c99"), ("c", "c17"), ("c++", "c++98"), ("c++", "c++20")]
+    {
         let source = folder.join(format!("{standard}.{}", if language == "c" { "c" } else { "cc" }));
         let text = "#include <lightbuffer.h>\nint main(void) { return lightbuffer_version() == 0; }\n";
         std::fs::write(&source, text).unwrap();
@@ -289,7 +296,15 @@ fn the_header_is_clean_c89_and_c99_and_cpp() {
 #[track_caller]
 fn syntax(language: &str, standard: &str, source: &Path) {
     let mut command = Command::new("cc");
-    command.args(["-x", language, &format!("-std={standard}"), "-fsyntax-only", "-Wall", "-Wextra", "-pedantic"]);
+    command.args([
+        "-x",
+        language,
+        &format!("-std={standard}"),
+        "-fsyntax-only",
+        "-Wall",
+        "-Wextra",
+        "-pedantic",
+    ]);
     // Of C++98, which has no `long long`, the header of the system needs it.
     command.args((standard == "c++98").then_some("-Wno-long-long"));
     command.args(["-Werror", "-I"]).arg(root().join("include")).arg(source);

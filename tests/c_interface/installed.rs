@@ -62,15 +62,25 @@ fn it_is_installed_below_a_prefix() {
     let staging = scratch("staging");
     let script = root().join("scripts/install_c.sh");
     let mut install = Command::new("bash");
-    install.arg(script).arg(library()).env("PREFIX", "/opt/light").env("LIBDIR", "lib/some-linux").env("DESTDIR", &staging);
+    install
+        .arg(script)
+        .arg(library())
+        .env("PREFIX", "/opt/light")
+        .env("LIBDIR", "lib/some-linux")
+        .env("DESTDIR", &staging);
     done(&mut install, "Debian package bash");
     let version = env!("CARGO_PKG_VERSION");
     let lib = staging.join("opt/light/lib/some-linux");
-    for file in ["liblightbuffer.a".into(), format!("liblightbuffer.so.{version}"), "pkgconfig/lightbuffer.pc".into()] {
+    for file in
+        ["liblightbuffer.a".into(), format!("liblightbuffer.so.{version}"), "pkgconfig/lightbuffer.pc".into()]
+    {
         assert!(lib.join(&file).is_file(), "{file}");
     }
     assert!(staging.join("opt/light/include/lightbuffer.h").is_file());
-    assert_eq!(lib.join("liblightbuffer.so.0").read_link().unwrap(), Path::new(&format!("liblightbuffer.so.{version}")));
+    assert_eq!(
+        lib.join("liblightbuffer.so.0").read_link().unwrap(),
+        Path::new(&format!("liblightbuffer.so.{version}"))
+    );
     let ask = |what: &str| {
         let mut command = Command::new("pkg-config");
         command.arg(what).arg("lightbuffer").env("PKG_CONFIG_PATH", lib.join("pkgconfig"));

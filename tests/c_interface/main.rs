@@ -98,7 +98,12 @@ fn compiled(source: &Path, linking: Linking, options: &[&str]) -> PathBuf {
 /// A program under valgrind: no error, and nothing lost.
 fn under_valgrind(program: &Path) -> Command {
     let mut command = Command::new("valgrind");
-    let options = ["--quiet", "--error-exitcode=99", "--leak-check=full", "--errors-for-leak-kinds=definite,indirect,possible"];
+    let options = [
+        "--quiet",
+        "--error-exitcode=99",
+        "--leak-check=full",
+        "--errors-for-leak-kinds=definite,indirect,possible",
+    ];
     command.args(options).arg(program);
     command
 }
