@@ -23,12 +23,12 @@ export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/n
 from=target/deb
 rm -rf "$from"
 mkdir -p "$from"
-"$cargo" build --release
-"$cargo" --quiet run --release -- manual -o "$from/man"
+# The program in the same go: one library for both.
+bash scripts/c_library.sh target/c --release --bins
+target/release/lightbuffer manual -o "$from/man"
 for shell in bash zsh fish; do
-    "$cargo" --quiet run --release -- completions "$shell" >"$from/completions.$shell"
+    target/release/lightbuffer completions "$shell" >"$from/completions.$shell"
 done
-bash scripts/c_library.sh target/c
 # Where lightbuffer.pc is to say that things are; cargo-deb moves what is below usr/lib into the architecture's folder.
 multiarch=$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 DESTDIR="$from/root" PREFIX=/usr LIBDIR=lib/$multiarch bash scripts/install_c.sh target/c
