@@ -95,7 +95,7 @@ fn compiled(source: &Path, linking: Linking, options: &[&str]) -> PathBuf {
     program
 }
 
-/// A program under valgrind: no error, and nothing lost.
+/// A program under valgrind: no error, and nothing lost but what `valgrind.supp` explains.
 fn under_valgrind(program: &Path) -> Command {
     let mut command = Command::new("valgrind");
     let options = [
@@ -104,6 +104,7 @@ fn under_valgrind(program: &Path) -> Command {
         "--leak-check=full",
         "--errors-for-leak-kinds=definite,indirect,possible",
     ];
-    command.args(options).arg(program);
+    let known = root().join("tests/c_interface/valgrind.supp");
+    command.args(options).arg(format!("--suppressions={}", known.display())).arg(program);
     command
 }
