@@ -11,6 +11,9 @@
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make mutants MUTANTS=...       cargo-mutants over geometry, light buffer and verdicts; MUTANTS are more of its options
 #   make deny                      licences, sources and known holes of all dependencies
+#   make c-library                 header, static and shared library and lightbuffer.pc for C and C++, in target/c
+#   make install-c PREFIX=/usr/local   the same below a prefix; LIBDIR and DESTDIR as usual
+#   make deb                       Debian packages of the program and the C library, in target/debian
 #   make packages                  install the Debian packages that are missing, and nothing else
 #   make clean-demo                remove what `make demo` left
 
@@ -23,7 +26,7 @@ DEMO_TESTERS := bounding-volumes,light-buffer,irregular-z-buffer,shadow-buffer,e
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build-packages demo test test-scenes lint deny aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants clean-demo
+.PHONY: help packages build-packages demo test test-scenes lint deny aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants c-library install-c deb clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -104,6 +107,20 @@ mutants: packages
 		echo "make mutants needs cargo-mutants: cargo install --locked cargo-mutants" >&2; exit 2; }
 	PROPTEST_MAX_SHRINK_ITERS=0 PROPTEST_DISABLE_FAILURE_PERSISTENCE=1 \
 		$(CARGO) mutants --output out $(MUTANTS)
+
+c-library: build-packages
+	@bash scripts/c_library.sh target/c
+	@echo "The C library is in $(CURDIR)/target/c"
+
+# Root need not build anything.
+PREFIX ?= /usr/local
+LIBDIR ?= lib
+install-c:
+	@[ -f target/c/lib/liblightbuffer.a ] || { echo "make install-c: first say make c-library" >&2; exit 2; }
+	@PREFIX="$(PREFIX)" LIBDIR="$(LIBDIR)" DESTDIR="$(DESTDIR)" bash scripts/install_c.sh target/c
+
+deb: build-packages
+	@bash scripts/deb.sh
 
 clean-demo:
 	rm -rf out/blocks out/courtyard out/blocks-lights out/bench out/report.html

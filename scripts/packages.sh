@@ -6,9 +6,9 @@ set -euo pipefail
 # libembree-dev: the oracle. libclang-dev: bindgen reads Embree's header with it.
 packages=(libembree-dev libclang-dev)
 # openexr and openimageio-tools: their exrheader, idiff and oiiotool read our files in the tests. chromium: opens the
-# report page there.
+# report page there. g++, pkg-config and valgrind: programs of the tests use the C library.
 if [ "${1:-}" != --build-only ]; then
-    packages+=(openexr openimageio-tools chromium)
+    packages+=(openexr openimageio-tools chromium g++ pkg-config valgrind)
 fi
 
 if ! command -v cargo >/dev/null; then
@@ -17,7 +17,7 @@ if ! command -v cargo >/dev/null; then
 fi
 
 if ! command -v dpkg-query >/dev/null; then
-    echo "This is not Debian: see that Embree 3 or 4 and libclang (with headers) and exrheader, idiff, oiiotool and chromium are installed." >&2
+    echo "This is not Debian: see that Embree 3 or 4 and libclang (with headers) and exrheader, idiff, oiiotool, chromium, g++, pkg-config and valgrind are installed." >&2
     exit 0
 fi
 

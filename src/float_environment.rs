@@ -6,7 +6,8 @@
 //! so that nothing exact could be computed there; to Rust, such a thread is outside of its rules altogether. So
 //! everything public that computes a sign does so in the [standard] environment and puts back what it found.
 //!
-//! With `src/embree/` and the SIMD kernels this is the only place of `unsafe` code: the control word is a register.
+//! With `src/embree/`, the SIMD kernels and `c_interface.rs` this is the only place of `unsafe` code: the control word is a
+//! register.
 
 use rayon::iter::{MapInit, ParallelIterator};
 use std::marker::PhantomData;

@@ -27,6 +27,7 @@
 //! | [`hard_cases`] | 47 small cases whose answers are known, for all testers |
 //! | [`report`] | JSON, tables, image channels, the page |
 //! | [`cli`] | one file a command |
+//! | [`c_interface`] | what `include/lightbuffer.h` declares |
 //!
 //! # Words
 //!
@@ -78,6 +79,7 @@
 #![warn(missing_docs)]
 
 mod atomic;
+pub mod c_interface;
 pub mod cli;
 #[cfg(feature = "embree")]
 pub mod embree;

@@ -8,10 +8,6 @@ use crate::geometry::curved::Shape;
 use glam::Vec3;
 use std::collections::HashMap;
 
-/// The most vertices or triangles a scene may have: indices are 32 bits, and `object_id` channels hold
-/// them in floats only as far as 2^24 objects go; triangles may be more.
-const MAX_ELEMENTS: usize = 1 << 28;
-
 /// Primitives that a scene leaves out because they can neither be seen nor block.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Dropped {
@@ -108,6 +104,10 @@ impl Names {
 }
 
 impl SceneBuilder {
+    /// The most vertices or triangles a scene may have: indices are 32 bits, and `object_id` channels hold
+    /// them in floats only as far as 2^24 objects go; triangles may be more.
+    pub const MAX_ELEMENTS: usize = 1 << 28;
+
     /// An empty scene with one default material (index 0).
     pub fn new(name: impl Into<String>) -> SceneBuilder {
         SceneBuilder::extend(Scene::empty(name))
@@ -202,6 +202,11 @@ impl SceneBuilder {
         self.scene.triangles.len()
     }
 
+    /// Vertices so far.
+    pub fn vertex_count(&self) -> usize {
+        self.scene.vertices.len()
+    }
+
     /// Curved surfaces so far.
     pub fn curved_count(&self) -> usize {
         self.scene.curved.len()
@@ -221,11 +226,11 @@ impl SceneBuilder {
     pub fn add_object(&mut self, input: ObjectInput) -> Result<()> {
         let _floats = StandardFloats::new();
         let scene = &mut self.scene;
-        let total = |have: usize, more: usize| have.saturating_add(more) > MAX_ELEMENTS;
+        let total = |have: usize, more: usize| have.saturating_add(more) > Self::MAX_ELEMENTS;
         if total(scene.vertices.len(), input.positions.len())
             || total(scene.triangles.len() + scene.curved.len(), input.triangles.len() + input.curved.len())
         {
-            return Err(Error::Usage(format!("more than {MAX_ELEMENTS} vertices or primitives")));
+            return Err(Error::Usage(format!("more than {} vertices or primitives", Self::MAX_ELEMENTS)));
         }
         let Some(material) = scene.materials.get(input.material as usize) else {
             return Err(Error::Usage(format!("object {}: no material {}", input.name, input.material)));
