@@ -186,3 +186,34 @@ fn a_result_never_replaces_a_scene() {
         assert!(line.contains("bench."), "{line}");
     }
 }
+
+#[test]
+fn first_hits_of_the_t_buffer_stand_beside_those_of_embree() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let options = ["--first-hits", TESTERS, "bounding-volumes", "--finalists", "1", "--threads", "1,2"];
+    let run = bench(&[BLOCKS], &out, &options).done();
+    assert!(run.stdout.contains("Embree over t-buffer"), "{}", run.stdout);
+    let document = json(&std::fs::read_to_string(out.join("bench.json")).unwrap());
+    let reports = rows(&document, "first_hits");
+    assert_eq!(reports.iter().map(|report| report["threads"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2]);
+    for report in reports {
+        let rows = rows(report, "rows");
+        assert_eq!((&rows[0]["method"], &rows[0]["differ"]), (&"t-buffer".into(), &0.into()));
+        assert!(
+            rows.len() > 30
+                && rows[1..].iter().all(|row| row["method"].as_str().unwrap().starts_with("embree-fast"))
+        );
+        let in_rounds: Vec<_> = rows.iter().filter(|row| row["interleaved"] == true).collect();
+        assert!((2..=3).contains(&in_rounds.len()) && in_rounds.iter().all(|row| row["rounds"] == 2));
+        // Embree sees the same but where a ray passes an edge within its rounding.
+        let pixels = report["width"].as_u64().unwrap() * report["height"].as_u64().unwrap();
+        assert!(rows.iter().all(|row| row["differ"].as_u64().unwrap() * 1000 < pixels));
+        let best = |key: &str| {
+            let times = in_rounds[1..].iter().map(|row| row[key].as_f64().unwrap());
+            times.reduce(f64::min).unwrap() / rows[0][key].as_f64().unwrap()
+        };
+        assert!((report["frame"].as_f64().unwrap() / best("frame_seconds") - 1.0).abs() < 1e-9);
+        assert!((report["query"].as_f64().unwrap() / best("query_seconds") - 1.0).abs() < 1e-9);
+    }
+}
