@@ -132,6 +132,7 @@ macro_rules! wrong {
             basis: Basis::Exact,
             lights: Lights::All,
             build: &|input| Ok(Box::new(Wrong(Arbiter::new(input), $bent))),
+            of_scene: None,
             expected_tests: |_, queries| queries,
         }
     };

@@ -53,8 +53,26 @@ struct Facts {
     high: Option<[f32; 3]>,
     lights: Vec<LightFacts>,
     cameras: Vec<String>,
+    /// None where nothing moves.
+    animation: Option<AnimationFacts>,
     added: Vec<String>,
     warnings: Vec<String>,
+}
+
+/// What moves, and when.
+#[derive(Debug, Serialize)]
+struct AnimationFacts {
+    /// Seconds of the first and of the last key.
+    begin: f64,
+    end: f64,
+    frames_per_second: String,
+    /// The frames that hold both.
+    first_frame: u32,
+    last_frame: u32,
+    /// How many objects move.
+    objects: usize,
+    lights: Vec<String>,
+    cameras: Vec<String>,
 }
 
 /// Parts of objects that are no closed solids, by the reason.
@@ -133,9 +151,31 @@ fn facts(view: &View) -> Facts {
         high: bounds.map(|(_, high)| high.to_array()),
         lights: scene.lights.iter().map(light_facts).collect(),
         cameras: scene.cameras.iter().map(|camera| camera.name.clone()).collect(),
+        animation: animation_facts(view),
         added: view.added.clone(),
         warnings: scene.warnings.clone(),
     }
+}
+
+fn animation_facts(view: &View) -> Option<AnimationFacts> {
+    let motion = &view.motion;
+    let rate = view.rate.unwrap_or_default();
+    let (begin, end) = motion.range().filter(|_| !motion.is_empty())?;
+    // Whole numbers within what frames can be; rounding of seconds must not add one.
+    let whole = |frame: f64, round: fn(f64) -> f64| {
+        let nearest = frame.round();
+        (if (frame - nearest).abs() < 1e-6 { nearest } else { round(frame) }) as u32
+    };
+    Some(AnimationFacts {
+        begin,
+        end,
+        frames_per_second: rate.to_string(),
+        first_frame: whole(rate.frame(begin), f64::floor),
+        last_frame: whole(rate.frame(end), f64::ceil),
+        objects: motion.objects.len(),
+        lights: motion.lights.iter().map(|light| view.scene.lights[light.index].name.clone()).collect(),
+        cameras: motion.cameras.iter().map(|camera| view.scene.cameras[camera.index].name.clone()).collect(),
+    })
 }
 
 fn light_facts(light: &Light) -> LightFacts {
@@ -222,6 +262,24 @@ fn text(facts: &Facts) -> String {
     }
     for camera in &facts.cameras {
         let _ = writeln!(out, "  camera {camera}");
+    }
+    if let Some(animation) = &facts.animation {
+        let named = |kind: &str, names: &[String]| match names {
+            [] => String::new(),
+            names => format!(", {kind} {}", names.join(", ")),
+        };
+        let _ = writeln!(
+            out,
+            "  animated from {} to {} s, frames {} to {} at {} a second; what moves: {} objects{}{}",
+            animation.begin,
+            animation.end,
+            animation.first_frame,
+            animation.last_frame,
+            animation.frames_per_second,
+            count(animation.objects),
+            named("light", &animation.lights),
+            named("camera", &animation.cameras)
+        );
     }
     out
 }

@@ -6,6 +6,7 @@ use crate::error::{Error, Result};
 use crate::film::{FileSet, ImagePlanes, ToneMap, add_png_rgb};
 use crate::scene::formats::SceneFiles;
 use serde::Serialize;
+use std::collections::HashSet;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -65,7 +66,7 @@ pub fn warn_of_remains(folder: &Path, messages: Messages) {
 /// # Errors
 /// As said.
 pub fn expect_apart(results: &[PathBuf], files: &SceneFiles) -> Result<()> {
-    let mut taken: Vec<PathBuf> = Vec::new();
+    let mut taken: HashSet<PathBuf> = HashSet::new();
     for path in results.iter().filter(|path| *path != Path::new(STANDARD_OUTPUT)) {
         // A name in a folder that is not there yet is that of no file; two such are compared as they stand.
         let place = match Destination::of(path) {
@@ -79,10 +80,9 @@ pub fn expect_apart(results: &[PathBuf], files: &SceneFiles) -> Result<()> {
                 path.display()
             )));
         }
-        if taken.contains(&place) {
+        if !taken.insert(place) {
             return Err(Error::Usage(format!("{}: two results have this name", path.display())));
         }
-        taken.push(place);
     }
     Ok(())
 }

@@ -1,10 +1,11 @@
 //! The image of a run: shaded points, the masks of every light, and what made them.
 
-use super::view::{Seen, View};
+use super::view::{Seen, Shot};
 use crate::error::{Error, Result};
 use crate::film::{CategoryMap, ImageMetrics, ImagePlanes};
 use crate::report::images::{LightMaps, picture_planes};
 use crate::report::validation::EmbreeFacts;
+use crate::scene::FrameRate;
 use crate::shading::{ShadedPoint, Textures, shade_picture};
 use crate::shadow::shadow_buffer::{self, ShadowBufferSettings};
 use crate::shadow::{Basis, Crossings, Queries};
@@ -50,21 +51,21 @@ impl<'a> From<&'a TesterRun> for Lighting<'a> {
 /// # Errors
 /// Never for the points of a view.
 pub fn shaded(
-    view: &View,
+    shot: &Shot,
     seen: &Seen,
     lighting: &[(&Queries, Lighting)],
     textures: Textures,
 ) -> Result<ImagePlanes> {
     let arriving: Vec<_> =
-        lighting.iter().map(|(queries, lighting)| arriving(view, seen, queries, lighting)).collect();
-    let View { scene, camera, .. } = view;
-    let shaded = shade_picture(scene, camera, &scene.lights, &seen.forest, &arriving, textures);
-    picture_planes(seen.hits.size, &view.scene, &seen.forest.nodes, &shaded)
+        lighting.iter().map(|(queries, lighting)| arriving(shot, seen, queries, lighting)).collect();
+    let Shot { scene, camera, lights, .. } = shot;
+    let shaded = shade_picture(scene, camera, lights, &seen.forest, &arriving, textures);
+    picture_planes(seen.hits.size, scene, &seen.forest.nodes, &shaded)
 }
 
-fn arriving(view: &View, seen: &Seen, queries: &Queries, lighting: &Lighting) -> Vec<[f32; 3]> {
+fn arriving(shot: &Shot, seen: &Seen, queries: &Queries, lighting: &Lighting) -> Vec<[f32; 3]> {
     let points = seen.forest.nodes.points.len();
-    let scene = &view.scene;
+    let scene = shot.scene;
     match lighting {
         Lighting::Shadowed { occluded, crossings } => queries.arriving(scene, points, occluded, *crossings),
         Lighting::Soft(light) => queries.arriving_by(scene, points, |query| light[query]),
@@ -96,14 +97,14 @@ pub const METRICS_BYTES: u64 = 2 * (15 * 4 + size_of::<ShadedPoint>() as u64) + 
 /// # Errors
 /// Never for the points of a view.
 pub fn metrics(
-    view: &View,
+    shot: &Shot,
     seen: &Seen,
     judged: &[(Queries, LightVerdict)],
 ) -> Result<BTreeMap<&'static str, ImageMetrics>> {
     let by = |tester: &str| {
         let runs = runs_of(judged, tester)?;
         let lighting: Vec<_> = runs.iter().map(|&(queries, run)| (queries, run.into())).collect();
-        shaded(view, seen, &lighting, Textures::On)
+        shaded(shot, seen, &lighting, Textures::On)
     };
     let (Some(truth), Some((_, first))) = (truth_of(judged), judged.first()) else {
         return Ok(BTreeMap::new());
@@ -197,16 +198,16 @@ pub fn add_left_out(planes: &mut ImagePlanes, left_out: &[&str]) -> Result<()> {
 /// If an attribute is there already.
 pub fn add_attributes(
     planes: &mut ImagePlanes,
-    view: &View,
+    shot: &Shot,
     testers: &[&str],
     tester: Option<&str>,
     embree: Option<&EmbreeFacts>,
     settings: &ShadowBufferSettings,
 ) -> Result<()> {
     planes.add_attribute("version", env!("CARGO_PKG_VERSION"))?;
-    planes.add_attribute("scene", &view.scene.name)?;
-    planes.add_attribute("sceneHash", format!("{:016x}", view.scene.hash()))?;
-    planes.add_attribute("camera", &view.camera.name)?;
+    planes.add_attribute("scene", &shot.scene.name)?;
+    planes.add_attribute("sceneHash", format!("{:016x}", shot.hash()))?;
+    planes.add_attribute("camera", &shot.camera.name)?;
     planes.add_attribute("testers", testers.join(" "))?;
     if let Some(tester) = tester {
         planes.add_attribute("shadow", tester)?;
@@ -220,4 +221,13 @@ pub fn add_attributes(
         planes.add_attribute("embreeEpsilon", format!("{:e}", embree.epsilon))?;
     }
     Ok(())
+}
+
+/// Says in the file which frame it is, and how many there are a second.
+///
+/// # Errors
+/// If the attribute is there already.
+pub fn add_frame(planes: &mut ImagePlanes, frame: u32, rate: FrameRate) -> Result<()> {
+    planes.set_frame_rate(rate);
+    planes.add_attribute("frame", frame.to_string())
 }

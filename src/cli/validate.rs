@@ -151,7 +151,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     } else if report.totals.queries == 0 {
         messages.warn("every visible point faces away from every light: there is nothing to judge");
     }
-    report.image_metrics = picture::metrics(&view, &seen, &judged)?;
+    report.image_metrics = picture::metrics(&view.shot(), &seen, &judged)?;
     write_all(args, &view, &seen, &names, &judged, &report)?;
     if args.run.stats {
         let runs = view.scene.lights.iter().zip(&judged).flat_map(|(light, (_, verdict))| {
@@ -239,7 +239,8 @@ fn write_all(
 ) -> Result<()> {
     let runs = picture::runs_of(judged, &args.testers.shadow)?;
     let lighting: Vec<_> = runs.iter().map(|&(queries, run)| (queries, run.into())).collect();
-    let mut planes = picture::shaded(view, seen, &lighting, Textures::On)?;
+    let shot = view.shot();
+    let mut planes = picture::shaded(&shot, seen, &lighting, Textures::On)?;
     let mut files = FileSet::new();
     files.folder(&args.output)?;
     let file = |name: &str| args.output.join(name);
@@ -254,7 +255,7 @@ fn write_all(
     let testers: Vec<_> = testers().map(|entry| entry.name).filter(|name| has_mask(name)).collect();
     let settings = args.run.shadow_buffer();
     let (tester, embree) = (Some(args.testers.shadow.as_str()), report.embree.as_ref());
-    picture::add_attributes(&mut planes, view, &testers, tester, embree, &settings)?;
+    picture::add_attributes(&mut planes, &shot, &testers, tester, embree, &settings)?;
     add_exr(&mut files, &file("image.exr"), &planes)?;
     output::add_preview(&mut files, &file("image.png"), &planes, view.scene.background, args.run.exposure)?;
     output::add_json(&mut files, &file("validate.json"), report)?;

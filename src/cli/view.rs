@@ -5,8 +5,11 @@ use super::progress::Messages;
 use crate::error::{Error, Place, Result};
 use crate::film::grouped;
 use crate::memory::MemoryLimit;
+use crate::scene::animation::Motion;
 use crate::scene::formats::SceneFiles;
-use crate::scene::{Camera, Falloff, Framing, ImageSize, Light, PointLight, Scene, formats, frame};
+use crate::scene::{
+    Animation, Camera, Falloff, FrameRate, Framing, ImageSize, Light, PointLight, Scene, formats, frame,
+};
 use crate::shading::{RayForest, ShadedPoint, TreeRules};
 use crate::shadow::REGISTRY;
 use crate::visibility::{FirstHitMethod, FirstHits, SurfacePoint, VisibleSurfaces};
@@ -17,8 +20,12 @@ const USUAL_SIZE: ImageSize = ImageSize { width: 1280, height: 720 };
 
 /// A scene ready to be looked at.
 pub struct View {
-    /// The scene, framed if it came without lights or camera.
+    /// The scene at rest, framed if it came without lights or camera.
     pub scene: Scene,
+    /// What moves in it.
+    pub motion: Motion,
+    /// Frames a second, if the scene says so.
+    pub rate: Option<FrameRate>,
     /// The camera that was chosen.
     pub camera: Camera,
     /// Of the image: what the options say, else the camera, else [`USUAL_SIZE`].
@@ -40,8 +47,8 @@ impl View {
         limit: MemoryLimit,
         messages: Messages,
     ) -> Result<View> {
-        let (scene, files) = formats::load_with_files(&options.scene, limit)?;
-        View::of(scene, files, options, lights, messages)
+        let (animation, files) = formats::load_with_files(&options.scene, limit)?;
+        View::of(animation, files, options, lights, messages)
     }
 
     /// The same of a scene that is there already.
@@ -49,12 +56,13 @@ impl View {
     /// # Errors
     /// As [`load`](View::load), but for the loader's.
     pub fn of(
-        mut scene: Scene,
+        animation: impl Into<Animation>,
         files: SceneFiles,
         options: &ViewOptions,
         lights: &LightOptions,
         messages: Messages,
     ) -> Result<View> {
+        let Animation { rest: mut scene, mut motion, rate } = animation.into();
         if let (true, Some(warning)) = (options.strict, scene.warnings.first()) {
             return Err(Error::input(&options.scene, Place::File, format!("{warning} (--strict)")));
         }
@@ -69,11 +77,17 @@ impl View {
         if !added.is_empty() {
             messages.say(&format!("the scene came without: added {}", added.join(", ")));
         }
-        replace_lights(&mut scene, lights)?;
-        let camera = choose_camera(&scene, options.camera.as_deref())?;
-        let size = options.size.or(camera.size).unwrap_or(USUAL_SIZE);
-        let (camera, size) = if options.corner_rays { camera.through_corners(size) } else { (camera, size) };
-        Ok(View { scene, camera, size, files, added })
+        if replace_lights(&mut scene, lights)? == Replaced::All {
+            motion.lights.clear();
+        }
+        let (camera, size) = aim(&scene.cameras, options)?;
+        Ok(View { scene, motion, rate, camera, size, files, added })
+    }
+
+    /// The scene at rest as the camera sees it.
+    pub fn shot(&self) -> Shot<'_> {
+        let (lights, camera) = (self.scene.lights.clone(), self.camera.clone());
+        Shot { scene: &self.scene, lights, camera, size: self.size }
     }
 
     /// Takes so many samples a pixel along each side.
@@ -81,10 +95,55 @@ impl View {
     /// # Errors
     /// If the image would have more pixels than one may have.
     pub fn subdivide(&mut self, samples: u32) -> Result<()> {
-        let side = |pixels: u32| pixels.saturating_mul(samples);
-        let size = ImageSize::checked(side(self.size.width), side(self.size.height), MOST_SAMPLES);
-        self.size = size.map_err(|why| Error::Usage(format!("--subdivide {samples}: {why}")))?;
+        self.size = subdivided(self.size, samples)?;
         Ok(())
+    }
+
+    /// As [`Shot::look`], at rest.
+    ///
+    /// # Errors
+    /// As [`Shot::look`].
+    pub fn look(&self, rules: LookRules, limit: MemoryLimit) -> Result<Seen> {
+        self.shot().look(rules, limit)
+    }
+}
+
+/// A size with so many samples a pixel along each side.
+///
+/// # Errors
+/// If the image would have more pixels than one may have.
+pub fn subdivided(size: ImageSize, samples: u32) -> Result<ImageSize> {
+    let side = |pixels: u32| pixels.saturating_mul(samples);
+    let size = ImageSize::checked(side(size.width), side(size.height), MOST_SAMPLES);
+    size.map_err(|why| Error::Usage(format!("--subdivide {samples}: {why}")))
+}
+
+/// The camera that was chosen among those of a scene, and the size of its image.
+///
+/// # Errors
+/// If there is no such camera.
+pub fn aim(cameras: &[Camera], options: &ViewOptions) -> Result<(Camera, ImageSize)> {
+    let camera = choose_camera(cameras, options.camera.as_deref())?;
+    let size = options.size.or(camera.size).unwrap_or(USUAL_SIZE);
+    Ok(if options.corner_rays { camera.through_corners(size) } else { (camera, size) })
+}
+
+/// One picture's worth of a scene: objects, which other pictures may share, under lights and before a camera of its own.
+pub struct Shot<'s> {
+    /// Objects and what they are made of. The lights and cameras that it holds are not looked at.
+    pub scene: &'s Scene,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// The camera.
+    pub camera: Camera,
+    /// The size of the image.
+    pub size: ImageSize,
+}
+
+impl Shot<'_> {
+    /// A hash of everything that shadows depend on, as [`Scene::hash`] is.
+    pub fn hash(&self) -> u64 {
+        self.scene.hash_under(&self.lights)
     }
 
     /// First hits, and the ray trees behind them.
@@ -92,7 +151,7 @@ impl View {
     /// # Errors
     /// If the scene, the image with the masks of all lights, or the trees would need more memory than the limit.
     pub fn look(&self, rules: LookRules, limit: MemoryLimit) -> Result<Seen> {
-        let lights = self.scene.lights.len() as u64;
+        let lights = self.lights.len() as u64;
         let with_lights = if lights == 1 { "a light".into() } else { format!("{} lights", grouped(lights)) };
         let primitives = self.scene.primitive_count() as u64;
         let scene = format!("a scene of {} primitives", grouped(primitives));
@@ -106,11 +165,11 @@ impl View {
             let what = format!("ray trees of {} points with {with_lights}", grouped(nodes));
             limit.beside(what, nodes.saturating_sub(pixels) * (NODE_BYTES + lights * LIGHT_BYTES))
         };
-        let hits = rules.first_hits.first_hits(&self.scene, &self.camera, self.size);
-        let visible = VisibleSurfaces::new(&self.scene, &self.camera, &hits);
+        let hits = rules.first_hits.first_hits(self.scene, &self.camera, self.size);
+        let visible = VisibleSurfaces::new(self.scene, &self.camera, &hits);
         let eye_rays = self.size.pixels() as u64;
         let room = |nodes: u64| trees(nodes).map(drop);
-        let forest = RayForest::grow_within(&self.scene, visible, eye_rays, rules.trees, &room)?;
+        let forest = RayForest::grow_within(self.scene, visible, eye_rays, rules.trees, &room)?;
         let memory = trees(forest.nodes.points.len() as u64)?;
         Ok(Seen { hits, forest, memory })
     }
@@ -162,20 +221,29 @@ pub struct Seen {
     pub memory: MemoryLimit,
 }
 
-fn choose_camera(scene: &Scene, name: Option<&str>) -> Result<Camera> {
+fn choose_camera(cameras: &[Camera], name: Option<&str>) -> Result<Camera> {
     let found = match name {
-        None => scene.cameras.first(),
-        Some(name) => scene.cameras.iter().find(|camera| camera.name == name),
+        None => cameras.first(),
+        Some(name) => cameras.iter().find(|camera| camera.name == name),
     };
     found.cloned().ok_or_else(|| {
-        let names: Vec<_> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
+        let names: Vec<_> = cameras.iter().map(|c| c.name.as_str()).collect();
         Error::Usage(format!("no camera `{}`; the scene has: {}", name.unwrap_or(""), names.join(", ")))
     })
 }
 
+/// Which lights are there by options.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Replaced {
+    /// None: they are the scene's.
+    None,
+    /// All of them.
+    All,
+}
+
 /// Replaces the lights of the scene by those of `--light` or `--lights`, all of one strength: together as
 /// bright at the scene's centre as the key light of a framed mesh.
-fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
+fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<Replaced> {
     // A scene that nothing in it bounds is looked at around the origin.
     let (low, high) = scene.bounds().unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
     let centre = low * 0.5 + high * 0.5;
@@ -184,7 +252,7 @@ fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
         None => options.lights.clone(),
     };
     if positions.is_empty() {
-        return Ok(());
+        return Ok(Replaced::None);
     }
     let share = 3.0 / positions.len() as f32;
     let light = |(i, &position): (usize, &Vec3)| {
@@ -196,7 +264,7 @@ fn replace_lights(scene: &mut Scene, options: &LightOptions) -> Result<()> {
     let is_finite = |l: &&Light| l.position().homogeneous().0.is_finite() && l.strength()[0].is_finite();
     match scene.lights.iter().find(|l| !is_finite(l)) {
         Some(light) => Err(Error::Usage(format!("{}: too far from the scene for 32-bit floats", light.name))),
-        None => Ok(()),
+        None => Ok(Replaced::All),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::ImagePlanes;
 use super::open_exr::ATTRIBUTE_PREFIX;
 use crate::error::{Error, Place, Result};
-use crate::scene::ImageSize;
+use crate::scene::{FrameRate, ImageSize};
 use exr::block::UncompressedBlock;
 use exr::block::reader::{ChunksReader, Reader};
 use exr::math::Vec2;
@@ -56,6 +56,7 @@ fn decode(reader: impl Read + Seek, length: u64) -> exr::error::Result<ImagePlan
     let size = check_header(header, length)?;
     let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
     let attributes = own_attributes(header);
+    let rate = header.own_attributes.frames_per_second;
     let planes = decode_planes(reader, size, names.len())?;
 
     let wrong = |error: Error| invalid(error.to_string());
@@ -66,6 +67,10 @@ fn decode(reader: impl Read + Seek, length: u64) -> exr::error::Result<ImagePlan
     for (name, text) in attributes {
         image.add_attribute(name, text).map_err(wrong)?;
     }
+    let rate = rate.and_then(|(numerator, denominator)| {
+        FrameRate::new(u32::try_from(numerator).ok()?, denominator).ok()
+    });
+    rate.into_iter().for_each(|rate| image.set_frame_rate(rate));
     Ok(image)
 }
 

@@ -87,6 +87,11 @@ fn header(image: &ImagePlanes, planes: &[&Plane]) -> Header {
                 (text(&format!("{ATTRIBUTE_PREFIX}{name}")), AttributeValue::Text(text(value)))
             })
             .collect(),
+        frames_per_second: image.frame_rate().map(|rate| {
+            let (numerator, denominator) = rate.fraction();
+            // A rate's terms have 31 bits.
+            (numerator as i32, denominator)
+        }),
         ..LayerAttributes::default()
     };
     header

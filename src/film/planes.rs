@@ -1,7 +1,7 @@
 //! Named planes of floats, all of one size: an image before it is a file.
 
 use crate::error::{Error, Result};
-use crate::scene::ImageSize;
+use crate::scene::{FrameRate, ImageSize};
 use std::collections::HashMap;
 
 /// The longest name, in bytes, that OpenEXR gives to a channel or an attribute.
@@ -23,6 +23,8 @@ pub struct ImagePlanes {
     size: ImageSize,
     channels: Vec<Plane>,
     attributes: Vec<(String, String)>,
+    /// Of the animation that it is a frame of.
+    rate: Option<FrameRate>,
     /// Places of the channels by their names: an image of 10,000 lights has 30,000 of them.
     places: HashMap<String, usize>,
 }
@@ -30,7 +32,7 @@ pub struct ImagePlanes {
 impl ImagePlanes {
     /// An image without channels.
     pub fn new(size: ImageSize) -> ImagePlanes {
-        ImagePlanes { size, channels: Vec::new(), attributes: Vec::new(), places: HashMap::new() }
+        ImagePlanes { size, channels: Vec::new(), attributes: Vec::new(), rate: None, places: HashMap::new() }
     }
 
     /// Adds a channel.
@@ -69,6 +71,16 @@ impl ImagePlanes {
         }
         self.attributes.push((name, text.into()));
         Ok(())
+    }
+
+    /// Says how many frames a second the animation has that this is one of: `framesPerSecond` in an OpenEXR file.
+    pub fn set_frame_rate(&mut self, rate: FrameRate) {
+        self.rate = Some(rate);
+    }
+
+    /// Frames a second, if it is one of an animation.
+    pub fn frame_rate(&self) -> Option<FrameRate> {
+        self.rate
     }
 
     /// Width and height of every channel.

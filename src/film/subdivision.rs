@@ -73,6 +73,7 @@ pub fn subdivided(planes: &ImagePlanes, samples: u32) -> Result<ImagePlanes> {
     for (name, text) in planes.attributes() {
         coarse.add_attribute(name, text)?;
     }
+    planes.frame_rate().into_iter().for_each(|rate| coarse.set_frame_rate(rate));
     Ok(coarse)
 }
 

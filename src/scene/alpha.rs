@@ -3,6 +3,7 @@
 use crate::geometry::texel::{Place, TexelAxis};
 use dashu_int::IBig;
 use dashu_int::ops::RemEuclid;
+use std::sync::Arc;
 
 /// Where a surface is there, texel by texel. Holes are decided when a scene is loaded; nothing is there by half.
 ///
@@ -19,7 +20,8 @@ pub struct AlphaMask {
     /// How the image goes on beyond its sides, along u and along v.
     pub wrap: [Wrap; 2],
     /// A bit a texel, row by row from the top (v = 0), the lowest bit of each word first; 1 is opaque.
-    opaque: Vec<u64>,
+    /// Shared by the scenes of all frames.
+    opaque: Arc<[u64]>,
 }
 
 /// How an image goes on beyond its sides.
@@ -93,7 +95,7 @@ impl AlphaMask {
                 texel += 1;
             }
         }
-        AlphaMask { width, height, wrap, opaque }
+        AlphaMask { width, height, wrap, opaque: opaque.into() }
     }
 
     /// Whether the surface is there, by column and row of a texel inside the image.

@@ -283,6 +283,44 @@ impl SceneBuilder {
         Ok(())
     }
 
+    /// Adds an object of a scene bit by bit. The builder must have the scene's materials, alpha masks and textures under the
+    /// same numbers.
+    pub(super) fn take_over(&mut self, from: &Scene, object: &Object) {
+        let scene = &mut self.scene;
+        let triangles = &from.triangles[object.first as usize..(object.first + object.count) as usize];
+        let corners = || triangles.iter().flat_map(|triangle| triangle.vertices);
+        let number = scene.objects.len() as u32;
+        let (first, first_curved) = (scene.triangles.len() as u32, scene.curved.len() as u32);
+        if let (Some(low), Some(high)) = (corners().min(), corners().max()) {
+            let base = scene.vertices.len() as u32;
+            scene.vertices.extend_from_slice(&from.vertices[low as usize..=high as usize]);
+            let moved = triangles.iter().map(|triangle| Triangle {
+                vertices: triangle.vertices.map(|vertex| vertex - low + base),
+                object: number,
+            });
+            scene.triangles.extend(moved);
+        }
+        let curved = object.first_curved as usize..(object.first_curved + object.curved_count) as usize;
+        let curved = from.curved[curved].iter();
+        scene.curved.extend(curved.map(|primitive| CurvedPrimitive { object: number, ..*primitive }));
+        scene.objects.push(Object { first, first_curved, ..object.clone() });
+    }
+
+    /// How many objects there are so far.
+    pub(super) fn object_count(&self) -> usize {
+        self.scene.objects.len()
+    }
+
+    /// How many lights there are so far.
+    pub(super) fn light_count(&self) -> usize {
+        self.scene.lights.len()
+    }
+
+    /// How many cameras there are so far.
+    pub(super) fn camera_count(&self) -> usize {
+        self.scene.cameras.len()
+    }
+
     /// The scene as it stands.
     pub fn into_scene(self) -> Scene {
         self.scene

@@ -119,7 +119,7 @@ impl SceneBuilder {
         };
         let mut input = ObjectInput { material, shadowing, ..copy(scene, object) };
         if let Some(transform) = &placement.transform {
-            transform_object(&mut input, transform)?;
+            input.transform(transform)?;
         }
         Ok(input)
     }
@@ -161,6 +161,28 @@ fn compact<T: Copy>(elements: &[T], corners: &[[u32; 3]]) -> (Vec<T>, Vec<[u32; 
     };
     let corners = corners.iter().map(|corners| corners.map(renumber)).collect();
     (used.iter().map(|&index| elements[index as usize]).collect(), corners)
+}
+
+impl ObjectInput {
+    /// Moves it, each coordinate computed in f64 and rounded once.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if a curved surface would not keep its kind.
+    pub(super) fn transform(&mut self, transform: &DAffine3) -> Result<()> {
+        transform_object(self, transform)
+    }
+
+    /// Finds out whether it can be moved so.
+    ///
+    /// # Errors
+    /// As [`transform`](ObjectInput::transform).
+    pub(super) fn check_transform(&self, transform: &DAffine3) -> Result<()> {
+        for shape in &self.curved {
+            let placed = shape.transformed(transform);
+            placed.map_err(|why| Error::Usage(format!("object {}: {why}", self.name)))?;
+        }
+        Ok(())
+    }
 }
 
 fn transform_object(input: &mut ObjectInput, transform: &DAffine3) -> Result<()> {

@@ -6,6 +6,7 @@
 //! when they are printed.
 
 mod alpha;
+pub mod animation;
 mod builder;
 mod camera;
 pub mod formats;
@@ -19,6 +20,7 @@ pub mod procedural;
 mod texture;
 
 pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
+pub use animation::{Animation, FrameRate};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
 pub use camera::{Camera, ImageSize, Raster};
 pub use framing::{Framing, frame};
@@ -164,12 +166,17 @@ impl Scene {
     /// A hash of everything that shadows depend on: corners of all triangles and numbers of all curved surfaces,
     /// object by object, positions and cones of lights, holes, transmittances, and parts in shadows. FNV-1a in 64 bits, the same on every platform.
     pub fn hash(&self) -> u64 {
+        self.hash_under(&self.lights)
+    }
+
+    /// The same under other lights than its own.
+    pub fn hash_under(&self, lights: &[Light]) -> u64 {
         let corners = self.triangles.iter().flat_map(|t| {
             let corners = t.vertices.map(|v| self.vertices[v as usize].to_array());
             corners.into_iter().flatten().map(f32::to_bits).chain([t.object])
         });
         // A point light's w is not fed, as it never was: its hash is that of its coordinates.
-        let lights = self.lights.iter().flat_map(|light| {
+        let lights = lights.iter().flat_map(|light| {
             let (xyz, w) = light.position().homogeneous();
             let cone = light.cone().map(|cone| [cone.axis.x, cone.axis.y, cone.axis.z, cone.cos_outer]);
             let rest = (w == 0.0).then_some(w).into_iter().chain(cone.into_iter().flatten());

@@ -23,6 +23,7 @@ pub static ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Exact,
     lights: Lights::All,
     build: &|input| Ok(Box::new(Auto::new(input)?)),
+    of_scene: None,
     expected_tests: |_, queries| 10.0 * queries,
 };
 

@@ -16,6 +16,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "brute-force",
     basis: Basis::Exact,
     lights: Lights::All,
+    of_scene: None,
     build: &|input| {
         let _floats = StandardFloats::new();
         Ok(Box::new(BruteForce::new(input, input.instruction_set)))

@@ -17,7 +17,10 @@ mod hierarchy;
 
 pub use hierarchy::{Hierarchy, Prepared};
 
-use super::{Basis, Build, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry, TracedRay};
+use super::{
+    Basis, Build, BuildInput, BuildOfScene, Counters, Crossings, Lights, SceneTester, ShadowTester,
+    TesterEntry, TracedRay,
+};
 use crate::embree::{Device, EmbreeMode, EmbreeScene, QueryOptions, Receiver, ShadowRay};
 use crate::error::Result;
 use crate::float_environment::StandardFloats;
@@ -34,6 +37,7 @@ pub const ROBUST: TesterEntry = TesterEntry {
     basis: Basis::Measured,
     lights: Lights::All,
     build: &|input| Ok(Box::new(Embree::new(input, EmbreeMode::ORACLE)?)),
+    of_scene: Some(&|input| Ok(Box::new(OfScene::new(input, EmbreeMode::ORACLE)?))),
     expected_tests,
 };
 
@@ -43,6 +47,7 @@ pub const FAST: TesterEntry = TesterEntry {
     basis: Basis::Measured,
     lights: Lights::All,
     build: &|input| Ok(Box::new(Embree::new(input, EmbreeMode::RIVAL)?)),
+    of_scene: Some(&|input| Ok(Box::new(OfScene::new(input, EmbreeMode::RIVAL)?))),
     expected_tests,
 };
 
@@ -52,11 +57,13 @@ pub static MODES: LazyLock<Vec<TesterEntry>> = LazyLock::new(|| EmbreeMode::all(
 /// Name and closure are made once and live as long as the program, as those of any other entry do.
 fn entry(mode: EmbreeMode) -> TesterEntry {
     let build: Box<Build> = Box::new(move |input| Ok(Box::new(Embree::new(input, mode)?)));
+    let of_scene: Box<BuildOfScene> = Box::new(move |input| Ok(Box::new(OfScene::new(input, mode)?)));
     TesterEntry {
         name: mode.to_string().leak(),
         basis: Basis::Measured,
         lights: Lights::All,
         build: Box::leak(build),
+        of_scene: Some(Box::leak(of_scene)),
         expected_tests,
     }
 }
@@ -85,6 +92,32 @@ pub const USUAL_EPSILON: f32 = 1e-4;
 /// every packet's width.
 const RAYS: usize = 256;
 
+/// An Embree scene, and how its rays are asked under any light.
+struct OfScene {
+    hierarchy: Hierarchy,
+    query: QueryOptions,
+    epsilon: f32,
+}
+
+impl OfScene {
+    fn new(input: &BuildInput, mode: EmbreeMode) -> Result<OfScene> {
+        let _floats = StandardFloats::new();
+        let device = Device::new(input.embree.threads)?;
+        let hierarchy = Hierarchy::new(&device, &Prepared::new(input.scene)?, mode)?;
+        Ok(OfScene { hierarchy, query: mode.query, epsilon: input.embree.epsilon })
+    }
+}
+
+impl SceneTester for OfScene {
+    fn under(&self, light: LightPosition) -> Box<dyn ShadowTester> {
+        Box::new(self.hierarchy.at(light, self.epsilon, self.query))
+    }
+
+    fn bytes(&self) -> usize {
+        self.hierarchy.bytes()
+    }
+}
+
 /// An Embree scene and one light.
 pub struct Embree {
     scene: Arc<EmbreeScene>,
@@ -103,11 +136,8 @@ impl Embree {
     /// # Errors
     /// A mode that this Embree lacks, or whatever it reports.
     pub fn new(input: &BuildInput, mode: EmbreeMode) -> Result<Embree> {
-        let _floats = StandardFloats::new();
-        let device = Device::new(input.embree.threads)?;
-        let prepared = Prepared::new(input.scene)?;
-        let hierarchy = Hierarchy::new(&device, &prepared, mode)?;
-        Ok(hierarchy.at(input.light, input.embree.epsilon, mode.query))
+        let of_scene = OfScene::new(input, mode)?;
+        Ok(of_scene.hierarchy.at(input.light, of_scene.epsilon, mode.query))
     }
 
     /// The ray for a point: not normalised, so that 1 is the light, unless that would be beyond Embree's range.

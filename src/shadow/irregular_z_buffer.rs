@@ -22,6 +22,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Exact,
     lights: Lights::All,
     build: &|input| Ok(Box::new(IrregularZBuffer::new(input)?)),
+    of_scene: None,
     expected_tests: |_, queries| 10.0 * queries,
 };
 

@@ -20,6 +20,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Exact,
     lights: Lights::All,
     build: &build,
+    of_scene: None,
     expected_tests: |_, queries| 10.0 * queries,
 };
 

@@ -15,6 +15,7 @@ pub mod embree;
 pub mod exact;
 pub mod facing;
 pub mod irregular_z_buffer;
+mod keeper;
 pub mod kept_light_buffer;
 pub mod light_buffer;
 mod precise;
@@ -28,9 +29,13 @@ mod traced_ray;
 
 pub use counters::Counters;
 pub use crossings::Crossings;
+pub use keeper::{Fresh, Keeper, Origin, Supplied, TesterSource};
 pub use precise::{blocks, crossings_of, is_there};
 pub use queries::Queries;
-pub use registry::{Basis, Build, BuildInput, EmbreeSettings, Lights, REGISTRY, TesterEntry, find, testers};
+pub use registry::{
+    Basis, Build, BuildInput, BuildOfScene, EmbreeSettings, Lights, REGISTRY, SceneTester, TesterEntry, find,
+    testers,
+};
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;

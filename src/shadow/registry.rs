@@ -111,6 +111,18 @@ impl Default for EmbreeSettings {
 /// How a tester is built: a closure, because testers that differ in a parameter share the code.
 pub type Build = dyn for<'a> Fn(&BuildInput<'a>) -> Result<Box<dyn ShadowTester + 'a>> + Send + Sync;
 
+/// What of a tester belongs to the scene and serves all its lights.
+pub trait SceneTester: Send + Sync {
+    /// The tester of a light, with the settings that this was built with. That takes no time to speak of.
+    fn under(&self, light: LightPosition) -> Box<dyn ShadowTester>;
+
+    /// Memory in bytes.
+    fn bytes(&self) -> usize;
+}
+
+/// How that is built; the light of the input means nothing.
+pub type BuildOfScene = dyn for<'a> Fn(&BuildInput<'a>) -> Result<Box<dyn SceneTester + 'a>> + Send + Sync;
+
 /// A tester by name.
 pub struct TesterEntry {
     /// The name on the command line and in reports.
@@ -121,6 +133,9 @@ pub struct TesterEntry {
     pub lights: Lights,
     /// Builds it for one light.
     pub build: &'static Build,
+    /// How its part of the scene is built, if it has one that serves all lights: that is kept where a light moves and no object
+    /// does.
+    pub of_scene: Option<&'static BuildOfScene>,
     /// Expected number of triangle tests for a number of casters and queries.
     pub expected_tests: fn(casters: f64, queries: f64) -> f64,
 }

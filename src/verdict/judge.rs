@@ -4,9 +4,12 @@ use super::{Cause, CauseCounts, TesterCounts, VerdictCounts, WrongAnswer};
 use crate::error::{Error, Result};
 use crate::measure::{Question, Timed, answer, soft_light, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
-use crate::shadow::{Basis, BuildInput, Counters, Crossings, Queries, ShadowTester, TesterEntry};
+use crate::shadow::{
+    Basis, BuildInput, Counters, Crossings, Fresh, Origin, Queries, ShadowTester, TesterEntry, TesterSource,
+};
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// One tester's answers to the queries of a light, and what they cost.
 #[derive(Debug, Clone)]
@@ -23,7 +26,9 @@ pub struct TesterRun {
     pub soft_light: Option<Vec<[f32; 3]>>,
     /// The work it took.
     pub counters: Counters,
-    /// Seconds to build it.
+    /// Whether it was built for this.
+    pub origin: Origin,
+    /// Seconds to build it; of one that was kept, to find it again.
     pub build_seconds: f64,
     /// Wall-clock nanoseconds a query on all threads.
     pub ns_per_query: f64,
@@ -94,7 +99,21 @@ pub fn judge(
     entries: &[&TesterEntry],
     progress: &dyn Progress,
 ) -> Result<LightVerdict> {
-    judge_known(input, queries, entries, None, &mut |_, error| Err(error), progress)
+    judge_from(&mut Fresh, input, queries, entries, progress)
+}
+
+/// The same with testers, the arbiter among them, that may have been kept.
+///
+/// # Errors
+/// As [`judge`].
+pub fn judge_from<'a>(
+    source: &mut dyn TesterSource<'a>,
+    input: &BuildInput<'a>,
+    queries: &Queries,
+    entries: &[&TesterEntry],
+    progress: &dyn Progress,
+) -> Result<LightVerdict> {
+    decide(source, input, queries, entries, None, &mut |_, error| Err(error), progress)
 }
 
 /// The same, and the arbiter too is held against answers that are known before, if there are such. A tester that
@@ -110,10 +129,25 @@ pub fn judge_known(
     refused: &mut dyn FnMut(&'static str, Error) -> Result<()>,
     progress: &dyn Progress,
 ) -> Result<LightVerdict> {
+    decide(&mut Fresh, input, queries, entries, known, refused, progress)
+}
+
+fn decide<'a>(
+    source: &mut dyn TesterSource<'a>,
+    input: &BuildInput<'a>,
+    queries: &Queries,
+    entries: &[&TesterEntry],
+    known: Option<&[bool]>,
+    refused: &mut dyn FnMut(&'static str, Error) -> Result<()>,
+    progress: &dyn Progress,
+) -> Result<LightVerdict> {
     let points = &queries.points;
     let mut testers = Vec::new();
     progress.stage("exact");
-    let arbiter = timed(|| Arbiter::new(input));
+    let built = timed(|| source.arbiter(input));
+    let supplied = built.value?;
+    let origin = supplied.origin;
+    let arbiter = Timed { value: supplied.tester.as_ref(), seconds: built.seconds };
     let decided = timed(|| {
         points
             .par_iter()
@@ -128,13 +162,16 @@ pub fn judge_known(
     let truth = known.map_or_else(|| answers.clone(), <[bool]>::to_vec);
     let crossed = match Question::of(input.scene) {
         Question::Occlusion => None,
-        Question::OcclusionAndCrossings => Some(crossings_of(&arbiter.value, points, &truth)?),
+        Question::OcclusionAndCrossings => Some(crossings_of(arbiter.value, points, &truth)?),
     };
     let touching: Vec<bool> = decided.value.iter().map(|t| t.contact == Contact::Touching).collect();
     for entry in entries {
         let (run, tester) = match entry.basis {
-            Basis::Truth => (truth_run(entry, &arbiter, &answers, crossed.as_ref(), decided.seconds), None),
-            _ => match ask(entry, input, queries, progress) {
+            Basis::Truth => {
+                let run = truth_run(entry, &arbiter, &answers, crossed.as_ref(), decided.seconds);
+                (TesterRun { origin, ..run }, None)
+            }
+            _ => match ask(source, entry, input, queries, progress) {
                 Ok((run, tester)) => (run, Some(tester)),
                 Err(error) => {
                     refused(entry.name, error)?;
@@ -147,7 +184,7 @@ pub fn judge_known(
             counts.count_transmittances(&run.occluded, found, &truth, crossed);
         }
         let explained =
-            tester.and_then(|t| explained(t.as_ref(), &arbiter.value, points, &run.occluded, &truth));
+            tester.and_then(|t| explained(t.as_ref(), arbiter.value, points, &run.occluded, &truth));
         testers.push(TesterResult { run, counts, explained });
     }
     let counts = verdicts(&truth, crossed.as_ref(), &touching, &testers);
@@ -157,7 +194,7 @@ pub fn judge_known(
 /// The arbiter's own row.
 fn truth_run(
     entry: &TesterEntry,
-    arbiter: &Timed<Arbiter>,
+    arbiter: &Timed<&Arbiter>,
     answers: &[bool],
     crossed: Option<&Crossings>,
     seconds: f64,
@@ -169,6 +206,7 @@ fn truth_run(
         crossings: crossed.cloned(),
         soft_light: None,
         counters: Counters::default(),
+        origin: Origin::Built,
         build_seconds: arbiter.seconds,
         ns_per_query: per_query(seconds, answers.len()),
         bytes: arbiter.value.bytes(),
@@ -227,18 +265,34 @@ pub fn run_tester(
     queries: &Queries,
     progress: &dyn Progress,
 ) -> Result<TesterRun> {
-    Ok(ask(entry, input, queries, progress)?.0)
+    run_tester_from(&mut Fresh, entry, input, queries, progress)
 }
 
-fn ask<'a>(
+/// The same with a tester that may have been kept.
+///
+/// # Errors
+/// As [`run_tester`].
+pub fn run_tester_from<'a>(
+    source: &mut dyn TesterSource<'a>,
     entry: &TesterEntry,
     input: &BuildInput<'a>,
     queries: &Queries,
     progress: &dyn Progress,
-) -> Result<(TesterRun, Box<dyn ShadowTester + 'a>)> {
+) -> Result<TesterRun> {
+    Ok(ask(source, entry, input, queries, progress)?.0)
+}
+
+fn ask<'a>(
+    source: &mut dyn TesterSource<'a>,
+    entry: &TesterEntry,
+    input: &BuildInput<'a>,
+    queries: &Queries,
+    progress: &dyn Progress,
+) -> Result<(TesterRun, Arc<dyn ShadowTester + 'a>)> {
     progress.stage(entry.name);
-    let built = timed(|| (entry.build)(input));
-    let tester = built.value?;
+    let built = timed(|| source.tester(entry, input));
+    let supplied = built.value?;
+    let (tester, origin) = (supplied.tester, supplied.origin);
     let question = Question::of(input.scene);
     let answers = answer(tester.as_ref(), &queries.points, question, &|n| progress.advance(n))?;
     let soft_light = soft_light(tester.as_ref(), input.scene, &queries.points, &answers)?;
@@ -249,6 +303,7 @@ fn ask<'a>(
         crossings: answers.crossings,
         soft_light,
         counters: answers.counters,
+        origin,
         build_seconds: built.seconds,
         ns_per_query: per_query(answers.seconds, queries.points.len()),
         bytes: tester.bytes(),

@@ -82,6 +82,7 @@ fn entry(name: &'static str, basis: Basis, build: Box<Build>) -> TesterEntry {
         basis,
         lights: Lights::All,
         build: Box::leak(build),
+        of_scene: None,
         expected_tests: |_, queries| queries,
     }
 }

@@ -20,6 +20,7 @@ static OF_1986: TesterEntry = TesterEntry {
     basis: Basis::Exact,
     lights: Lights::All,
     build: &|input| Ok(Box::new(LightBuffer::new(input)?)),
+    of_scene: None,
     expected_tests: |_, queries| 10.0 * queries,
 };
 

@@ -10,6 +10,7 @@ use crate::geometry::LightPosition;
 use crate::measure::Answers;
 use crate::measure::raghuvanshi_dhande::{Contender, buffer_of_rows};
 use crate::report::raghuvanshi_dhande::Picture;
+use crate::scene::animation::Motion;
 use crate::scene::formats::SceneFiles;
 use crate::scene::{ImageSize, Scene};
 use crate::shading::{Following, Textures, TreeRules, USUAL_DEPTH};
@@ -56,7 +57,15 @@ impl Stage {
     pub fn new(args: &Args, scene: Scene, appearance: Appearance) -> Result<Stage> {
         let size = picture_size(args, &scene)?;
         let camera = scene.cameras[0].clone();
-        let view = View { scene, camera, size, files: SceneFiles::default(), added: Vec::new() };
+        let view = View {
+            scene,
+            motion: Motion::default(),
+            rate: None,
+            camera,
+            size,
+            files: SceneFiles::default(),
+            added: Vec::new(),
+        };
         let trees = TreeRules { reflections: appearance.reflections, ..TreeRules::of_depth(USUAL_DEPTH) };
         let rules = LookRules { first_hits: FirstHitMethod::TBuffer, trees };
         let seen = view.look(rules, args.memory_limit())?;
@@ -120,12 +129,12 @@ impl Stage {
         let crossings = answers.crossings.as_ref();
         let lighting = Lighting::Shadowed { occluded: &answers.occluded, crossings };
         let lights = [(&self.queries, lighting)];
-        let mut planes = picture::shaded(&self.view, &self.seen, &lights, self.appearance.textures)?;
+        let mut planes = picture::shaded(&self.view.shot(), &self.seen, &lights, self.appearance.textures)?;
         let (tester, visible) = (contender.tester(), &self.seen.forest.nodes);
         let light = &self.view.scene.lights[0].name;
         picture::add_mask(&mut planes, light, visible, &self.queries, tester, &answers.occluded)?;
         let settings = contender.rows().map(buffer_of_rows).unwrap_or_default();
-        picture::add_attributes(&mut planes, &self.view, &[tester], Some(tester), None, &settings)?;
+        picture::add_attributes(&mut planes, &self.view.shot(), &[tester], Some(tester), None, &settings)?;
         let left_out = self.appearance.left_out();
         picture::add_left_out(&mut planes, &left_out)?;
         let (png, exr) = (format!("{name}.png"), format!("{name}.exr"));

@@ -48,6 +48,9 @@ pub const MAX_ZEROS: u64 = 1 << 22;
 /// The most joints of all skins that a glTF scene shows.
 pub const MAX_JOINTS: usize = 1 << 20;
 
+/// The most keys of all animations of a scene, of all properties together.
+pub const MAX_KEYS: u64 = 1 << 22;
+
 /// The most times that a morph target or a joint moves a vertex, over all instances.
 pub const MAX_MOVES: u64 = 1 << 28;
 

@@ -21,7 +21,7 @@ mod toml;
 
 pub use save::save;
 
-use super::{Dropped, Scene, procedural};
+use super::{Animation, Dropped, Scene, procedural};
 use crate::error::{Error, Place, Result};
 use crate::float_environment::StandardFloats;
 use crate::memory::MemoryLimit;
@@ -45,21 +45,29 @@ pub fn load(path: &Path) -> Result<Scene> {
 /// # Errors
 /// As [`load`], and [`Error::Input`] for what would need more.
 pub fn load_within(path: &Path, limit: MemoryLimit) -> Result<Scene> {
+    Ok(load_animation(path, limit)?.rest)
+}
+
+/// The same with what moves in it.
+///
+/// # Errors
+/// As [`load_within`].
+pub fn load_animation(path: &Path, limit: MemoryLimit) -> Result<Animation> {
     let _floats = StandardFloats::new();
     if let Some(name) = path.to_str().and_then(|path| path.strip_prefix(BUILTIN_PREFIX)) {
-        return procedural::find(name)?.build(None);
+        return Ok(procedural::find(name)?.build(None)?.into());
     }
-    let scene = match Format::of(path) {
-        Some(Format::Obj) => obj::load(path)?,
-        Some(Format::Ply) => ply::load(path)?,
+    let animation = match Format::of(path) {
+        Some(Format::Obj) => obj::load(path)?.into(),
+        Some(Format::Ply) => ply::load(path)?.into(),
         Some(Format::Gltf) => gltf::load(path, gltf::Container::Text, limit)?,
         Some(Format::Glb) => gltf::load(path, gltf::Container::Binary, limit)?,
-        Some(Format::Nff) => nff::load(path)?,
+        Some(Format::Nff) => nff::load(path)?.into(),
         Some(Format::Toml) => toml::load(path, limit)?,
         None => return Err(Error::input(path, Place::File, Format::EXPECTED)),
     };
-    if scene.primitive_count() == 0 {
-        let Dropped { degenerate, non_finite, curved } = scene.dropped;
+    if animation.rest.primitive_count() == 0 {
+        let Dropped { degenerate, non_finite, curved } = animation.rest.dropped;
         let why = match degenerate + non_finite + curved {
             0 => "expected at least one triangle or curved surface, found none".to_owned(),
             dropped => format!(
@@ -69,7 +77,18 @@ pub fn load_within(path: &Path, limit: MemoryLimit) -> Result<Scene> {
         };
         return Err(Error::input(path, Place::File, why));
     }
-    Ok(scene)
+    if !animation.motion.objects.is_empty() {
+        // A frame's scene stands beside that at rest, and what moves is there in its own space too.
+        let (objects, triangles) = (animation.rest.objects.len(), animation.rest.triangles.len());
+        let estimate = estimate::Estimate {
+            objects: 2 * objects as u64,
+            triangles: 2 * triangles as u64,
+            curved: 2 * animation.rest.curved.len() as u64,
+            ..estimate::Estimate::default()
+        };
+        estimate.check(limit).map_err(|why| Error::input(path, Place::File, format!("animated: {why}")))?;
+    }
+    Ok(animation)
 }
 
 /// The files that a scene was read from: its own, and those that it names.
@@ -83,15 +102,15 @@ impl SceneFiles {
     }
 }
 
-/// The same as [`load_within`], and the files that were read for it.
+/// The same as [`load_animation`], and the files that were read for it.
 ///
 /// # Errors
 /// As [`load_within`].
-pub fn load_with_files(path: &Path, limit: MemoryLimit) -> Result<(Scene, SceneFiles)> {
+pub fn load_with_files(path: &Path, limit: MemoryLimit) -> Result<(Animation, SceneFiles)> {
     confined::files_read();
-    let scene = load_within(path, limit)?;
+    let animation = load_animation(path, limit)?;
     let canonical = |file: PathBuf| file.canonicalize().unwrap_or(file);
-    Ok((scene, SceneFiles(confined::files_read().into_iter().map(canonical).collect())))
+    Ok((animation, SceneFiles(confined::files_read().into_iter().map(canonical).collect())))
 }
 
 /// What a name begins with that is of a built-in scene and not of a file.

@@ -26,6 +26,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "bounding-volumes",
     basis: Basis::Exact,
     lights: Lights::All,
+    of_scene: None,
     build: &|input| {
         let _floats = StandardFloats::new();
         Ok(Box::new(BoundingVolumes::new(input, input.instruction_set)))

@@ -43,6 +43,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     name: "exact",
     basis: Basis::Truth,
     lights: Lights::All,
+    of_scene: None,
     build: &|input| {
         let _floats = StandardFloats::new();
         Ok(Box::new(Arbiter::new(input)))

@@ -35,6 +35,7 @@ pub const ENTRY: TesterEntry = TesterEntry {
     basis: Basis::Measured,
     lights: Lights::AtPoints,
     build: &|input| Ok(Box::new(from_file_or_filled(input)?)),
+    of_scene: None,
     expected_tests: |_, queries| queries,
 };
 

@@ -30,6 +30,10 @@ pub(super) enum Wanted {
     Vectors,
     /// Quaternions.
     Rotations,
+    /// The same in animations, which may have more types of components.
+    Turns,
+    /// Seconds.
+    Times,
     /// Four indices of joints an element.
     Joints,
     /// Four weights of joints an element.
@@ -42,10 +46,10 @@ impl Wanted {
     /// The accessor's `type`, and how many numbers that is.
     fn shape(self) -> (&'static str, usize) {
         match self {
-            Wanted::Indices => ("SCALAR", 1),
+            Wanted::Indices | Wanted::Times => ("SCALAR", 1),
             Wanted::TextureCoordinates => ("VEC2", 2),
             Wanted::Positions | Wanted::Normals | Wanted::Displacements | Wanted::Vectors => ("VEC3", 3),
-            Wanted::Rotations | Wanted::Joints | Wanted::Weights => ("VEC4", 4),
+            Wanted::Rotations | Wanted::Turns | Wanted::Joints | Wanted::Weights => ("VEC4", 4),
             Wanted::Matrices => ("MAT4", 16),
         }
     }
@@ -58,8 +62,9 @@ impl Wanted {
         match self {
             Wanted::Indices => unsigned || component == UnsignedInt,
             Wanted::Joints => unsigned,
-            Wanted::Vectors | Wanted::Matrices => component == Float,
+            Wanted::Vectors | Wanted::Matrices | Wanted::Times => component == Float,
             Wanted::Rotations => component == Float || (signed && normalized),
+            Wanted::Turns => component == Float || ((signed || unsigned) && normalized),
             Wanted::Weights => component == Float || (unsigned && normalized),
             Wanted::Positions => component == Float || (quantized && (signed || unsigned)),
             Wanted::Displacements => component == Float || (quantized && signed),
@@ -76,6 +81,7 @@ impl Wanted {
             Wanted::Indices => "UNSIGNED_BYTE, UNSIGNED_SHORT or UNSIGNED_INT",
             Wanted::Joints => "UNSIGNED_BYTE or UNSIGNED_SHORT",
             Wanted::Weights => "FLOAT or normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
+            Wanted::Turns => "FLOAT or normalized integers of 8 or 16 bits",
             Wanted::Rotations => "FLOAT or normalized BYTE or SHORT",
             Wanted::TextureCoordinates if !quantized => "FLOAT or normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
             Wanted::Positions | Wanted::TextureCoordinates if quantized => {

@@ -17,6 +17,8 @@ pub(super) struct Findings {
     pub(super) normals_replaced: usize,
     /// Triangles of materials that are nowhere opaque.
     pub(super) absent: usize,
+    /// Animations of what another one moves already.
+    pub(super) other_takes: usize,
     textures: usize,
     unreadable: usize,
     blended: usize,
@@ -68,7 +70,7 @@ impl Findings {
         }
         for (count, what, noun) in [
             (document.scenes.len().saturating_sub(1), "scenes other than the default are not drawn", "scene"),
-            (document.animations.len(), "animations are not played", "animation"),
+            (self.other_takes, "animations of what an earlier one moves are not played", "animation"),
             (self.thin, "points and lines are not drawn", "primitive"),
             (self.left_over, "corners after the last whole triangle are not drawn", "corner"),
             (self.coloured, "vertex colours are not drawn, and their alpha is not looked at", "primitive"),

@@ -10,11 +10,13 @@ use super::schema::{Document, Mesh, Primitive};
 use super::skins::{self, Skins};
 use super::totals::{ElementError, describe_primitive, mesh_at};
 use super::{instancing, morphs};
+use crate::scene::animation::rig::JointNumber;
+use crate::scene::animation::{Hold, MovingObject, MovingPart, Placeable};
 use crate::scene::formats::limits::MAX_MOVES;
 use crate::scene::formats::text::printable;
 use crate::scene::{ObjectInput, SceneBuilder, TextureCoordinates};
 use glam::DAffine3;
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Meshes, each read when a node first shows it.
 pub(super) struct Meshes<'a> {
@@ -23,23 +25,35 @@ pub(super) struct Meshes<'a> {
     /// Where the surfaces of each material are there.
     presences: Vec<Presence>,
     skins: Skins<'a>,
-    read: Vec<Option<Vec<Option<Geometry>>>>,
+    read: Vec<Option<Vec<Option<Arc<Geometry>>>>>,
     /// How often morph targets and joints have moved a vertex.
     moves: u64,
 }
 
+/// Where a node shows its mesh.
+struct Instance {
+    /// From the mesh to the world.
+    world: DAffine3,
+    /// From the mesh to the node, if they differ.
+    offset: Option<DAffine3>,
+}
+
 /// A primitive in the pose that a node gives it.
-struct Posed<'g> {
-    number: usize,
-    geometry: &'g Geometry,
-    shape: Cow<'g, Shape>,
+struct Posed {
+    geometry: Arc<Geometry>,
+    /// Its shape, if that is another than that of the geometry.
+    shape: Option<Shape>,
     on_texture: Option<Vec<[f32; 2]>>,
 }
 
-impl Posed<'_> {
+impl Posed {
+    fn shape(&self) -> &Shape {
+        self.shape.as_ref().unwrap_or(&self.geometry.shape)
+    }
+
     /// The object without name and material, and how many corners had normals that were of no use.
     fn place(&self, world: &DAffine3) -> (ObjectInput, usize) {
-        let instance = self.shape.place(&self.geometry.triangles, world);
+        let instance = self.shape().place(&self.geometry.triangles, world);
         let texture_coordinates = self.on_texture.as_ref().map(|coordinates| TextureCoordinates {
             coordinates: coordinates.clone(),
             corners: instance.triangles.clone(),
@@ -50,6 +64,16 @@ impl Posed<'_> {
             ..ObjectInput::new("", instance.positions, instance.triangles)
         };
         (input, instance.normals_replaced)
+    }
+}
+
+impl Placeable for Posed {
+    fn placed(&self, transform: Option<&DAffine3>) -> crate::error::Result<ObjectInput> {
+        Ok(self.place(transform.unwrap_or(&DAffine3::IDENTITY)).0)
+    }
+
+    fn check(&self, _: &DAffine3) -> crate::error::Result<()> {
+        Ok(())
     }
 }
 
@@ -65,7 +89,7 @@ impl<'a> Meshes<'a> {
         Meshes { document, accessors, presences, skins, read, moves: 0 }
     }
 
-    /// Adds the objects of a mesh as a node shows it.
+    /// Adds the objects of a mesh as a node shows it, and returns those that move with the node's joint.
     ///
     /// # Errors
     /// An element and a line for whatever cannot be read as geometry.
@@ -73,9 +97,10 @@ impl<'a> Meshes<'a> {
         &mut self,
         place: &Placed,
         index: u64,
+        joint: Option<JointNumber>,
         builder: &mut SceneBuilder,
         findings: &mut Findings,
-    ) -> Result<(), ElementError> {
+    ) -> Result<Vec<MovingObject>, ElementError> {
         let node = |why: String| (nodes::describe(self.document, place.index), why);
         let (position, mesh) = mesh_at(self.document, index).map_err(node)?;
         let instances = self.instances(place, findings).map_err(node)?;
@@ -88,9 +113,12 @@ impl<'a> Meshes<'a> {
         let given = place.node.name.as_deref().or(mesh.name.as_deref());
         let name = given.map_or_else(|| format!("node {}", place.index), printable);
         let shadowing = Extras::shadowing(place.node.extras, mesh.extras);
-        for (count, world) in instances.iter().enumerate() {
-            for posed in &all_posed {
-                let material = mesh.primitives[posed.number].material;
+        // A skin leads to the world, wherever the node is.
+        let joint = joint.filter(|_| place.node.skin.is_none());
+        let mut moving = Vec::new();
+        for (count, Instance { world, offset }) in instances.iter().enumerate() {
+            for (number, posed) in &all_posed {
+                let material = mesh.primitives[*number].material;
                 if self.presence(material) == &Presence::Absent {
                     findings.absent += posed.geometry.triangles.len();
                     continue;
@@ -107,14 +135,18 @@ impl<'a> Meshes<'a> {
                     shadowing,
                     ..object
                 };
+                if joint.is_some() {
+                    let hold = Hold { joint, offset: *offset };
+                    let parts = vec![MovingPart { geometry: posed.clone(), hold }];
+                    moving.push(MovingObject { index: builder.object_count(), parts });
+                }
                 builder
                     .add_object(input)
-                    .map_err(|error| (describe_primitive(position, posed.number), error.to_string()))?;
+                    .map_err(|error| (describe_primitive(position, *number), error.to_string()))?;
             }
         }
-        drop(all_posed);
         self.read[position] = Some(read);
-        Ok(())
+        Ok(moving)
     }
 
     fn presence(&self, material: Option<u64>) -> &Presence {
@@ -129,25 +161,27 @@ impl<'a> Meshes<'a> {
     }
 
     /// From the mesh to the world, once for each time that the node shows it.
-    fn instances(&self, place: &Placed, findings: &mut Findings) -> Result<Vec<DAffine3>, String> {
+    fn instances(&self, place: &Placed, findings: &mut Findings) -> Result<Vec<Instance>, String> {
+        let at = |world: DAffine3| vec![Instance { world, offset: None }];
         let skinned = place.node.skin.is_some();
         let Some(instancing) = &place.node.extensions.instancing else {
             // A skin leads to the world already.
-            return Ok(vec![if skinned { DAffine3::IDENTITY } else { place.world }]);
+            return Ok(at(if skinned { DAffine3::IDENTITY } else { place.world }));
         };
         if skinned {
             let which = nodes::describe(self.document, place.index);
             findings.not_drawn("instances of skinned meshes", which);
-            return Ok(vec![DAffine3::IDENTITY]);
+            return Ok(at(DAffine3::IDENTITY));
         }
-        let mut transforms = instancing::transforms(self.document, self.accessors, place.node, instancing)?;
-        for (number, transform) in transforms.iter_mut().enumerate() {
-            *transform = place.world * *transform;
-            if !transform.is_finite() {
-                return Err(format!("the transform of instance {number} in the world is not finite"));
+        let transforms = instancing::transforms(self.document, self.accessors, place.node, instancing)?;
+        let instance = |(number, transform): (usize, DAffine3)| {
+            let world = place.world * transform;
+            match world.is_finite() {
+                true => Ok(Instance { world, offset: Some(transform) }),
+                false => Err(format!("the transform of instance {number} in the world is not finite")),
             }
-        }
-        Ok(transforms)
+        };
+        transforms.into_iter().enumerate().map(instance).collect()
     }
 
     fn read_mesh(
@@ -155,11 +189,11 @@ impl<'a> Meshes<'a> {
         position: usize,
         mesh: &Mesh,
         findings: &mut Findings,
-    ) -> Result<Vec<Option<Geometry>>, ElementError> {
+    ) -> Result<Vec<Option<Arc<Geometry>>>, ElementError> {
         let mut all = Vec::new();
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let element = |why| (describe_primitive(position, number), why);
-            all.push(self.read_primitive(primitive, findings).map_err(element)?);
+            all.push(self.read_primitive(primitive, findings).map_err(element)?.map(Arc::new));
         }
         Ok(all)
     }
@@ -180,35 +214,36 @@ impl<'a> Meshes<'a> {
         Ok(Some(geometry))
     }
 
-    fn pose_all<'g>(
+    /// By their numbers in the mesh.
+    fn pose_all(
         &mut self,
         place: &Placed,
         (position, mesh): (usize, &Mesh),
-        read: &'g [Option<Geometry>],
-    ) -> Result<Vec<Posed<'g>>, ElementError> {
+        read: &[Option<Arc<Geometry>>],
+    ) -> Result<Vec<(usize, Arc<Posed>)>, ElementError> {
         let mut posed = Vec::new();
         for (number, (geometry, primitive)) in read.iter().zip(&mesh.primitives).enumerate() {
             let Some(geometry) = geometry else { continue };
             let at = |why| (describe_primitive(position, number), why);
             let shape = self.pose(place, mesh, primitive, geometry).map_err(at)?;
-            let on_texture = match self.masking(primitive) {
-                Some(masking) => shape.on_texture(&masking.placement).map_err(at)?,
-                None => None,
-            };
-            posed.push(Posed { number, geometry, shape, on_texture });
+            let mut in_pose = Posed { geometry: geometry.clone(), shape, on_texture: None };
+            if let Some(masking) = self.masking(primitive) {
+                in_pose.on_texture = in_pose.shape().on_texture(&masking.placement).map_err(at)?;
+            }
+            posed.push((number, Arc::new(in_pose)));
         }
         Ok(posed)
     }
 
-    /// A primitive with the node's morph targets and skin.
-    fn pose<'g>(
+    /// The shape of a primitive with the node's morph targets and skin, if there are such.
+    fn pose(
         &mut self,
         place: &Placed,
         mesh: &Mesh,
         primitive: &Primitive,
-        geometry: &'g Geometry,
-    ) -> Result<Cow<'g, Shape>, String> {
-        let mut shape = Cow::Borrowed(&geometry.shape);
+        geometry: &Geometry,
+    ) -> Result<Option<Shape>, String> {
+        let mut shape = None;
         let weights = morphs::weights(place.node, mesh, primitive)?;
         self.spend(weights.len() as u64)?;
         let vertices = geometry.used.len() as u64;
@@ -217,13 +252,14 @@ impl<'a> Meshes<'a> {
             self.spend(targets.saturating_mul(vertices))?;
             let placement = self.masking(primitive).map(|masking| &masking.placement);
             let displaced = morphs::displaced(geometry, self.accessors, primitive, placement, weights)?;
-            shape = Cow::Owned(displaced);
+            shape = Some(displaced);
         }
         if let Some(skin) = place.node.skin {
             let sets = skins::influences(self.accessors, primitive, geometry.vertices)?;
             self.spend((4 * sets.len() as u64).saturating_mul(vertices.max(1)))?;
             let matrices = self.skins.matrices(skin)?;
-            shape = Cow::Owned(skins::skinned(geometry, shape.into_owned(), &sets, matrices)?);
+            let own = shape.unwrap_or_else(|| geometry.shape.clone());
+            shape = Some(skins::skinned(geometry, own, &sets, matrices)?);
         }
         Ok(shape)
     }

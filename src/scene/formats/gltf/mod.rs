@@ -8,6 +8,7 @@
 
 mod accessors;
 mod alpha;
+mod animations;
 mod buffers;
 mod cameras;
 mod components;
@@ -30,10 +31,12 @@ mod totals;
 
 use self::accessors::Accessors;
 use self::alpha::{Masks, Presence};
+use self::animations::Joints;
 use self::buffers::Buffers;
 use self::container::Parts;
 use self::findings::Findings;
 use self::meshes::Meshes;
+use self::nodes::Placed;
 use self::schema::Document;
 use super::confined::{self, Room};
 use super::limits::MAX_LIGHTS;
@@ -41,7 +44,8 @@ use super::scene_name;
 use super::text::printable;
 use crate::error::{Error, Place, Result};
 use crate::memory::MemoryLimit;
-use crate::scene::{Scene, SceneBuilder};
+use crate::scene::animation::{Hold, Motion, MovingElement, Subject};
+use crate::scene::{Animation, SceneBuilder};
 use std::path::Path;
 
 /// What the name of a file says about its form.
@@ -58,7 +62,7 @@ pub(super) enum Container {
 /// # Errors
 /// One line with file and place (a line of the JSON, or an element by index and name) for whatever cannot be
 /// read as geometry, camera or light, and for required extensions that are not supported.
-pub(super) fn load(path: &Path, named: Container, limit: MemoryLimit) -> Result<Scene> {
+pub(super) fn load(path: &Path, named: Container, limit: MemoryLimit) -> Result<Animation> {
     let bytes = confined::read_scene(path)?;
     let Parts { document, binary } = container::open(path, &bytes, named)?;
     let at = |element: String, why: String| Error::input(path, Place::Element(element), why);
@@ -86,23 +90,48 @@ pub(super) fn load(path: &Path, named: Container, limit: MemoryLimit) -> Result<
         findings.note(entry, &presence);
         presences.push(presence);
     }
+    let joints = Joints::read(&document, &accessors, &placed, &mut findings, limit)
+        .map_err(|(element, why)| at(element, why))?;
+    let mut motion = Motion::default();
     let mut meshes = Meshes::new(&document, &accessors, presences, &placed);
     for place in &placed {
         let describe = || nodes::describe(&document, place.index);
+        let joint = joints.of(place.index);
         if let Some(index) = place.node.mesh {
-            meshes
-                .show(place, index, &mut builder, &mut findings)
+            let moving = meshes
+                .show(place, index, joint, &mut builder, &mut findings)
                 .map_err(|(element, why)| at(element, why))?;
+            motion.objects.extend(moving);
+            if place.node.skin.is_some_and(|skin| joints.move_skin(&document, skin)) {
+                findings.not_drawn("animated joints of skins", describe());
+            }
         }
+        let hold = Hold { joint, offset: None };
         if let Some(index) = place.node.camera {
-            match cameras::read(&document, place, index).map_err(|why| at(describe(), why))? {
-                Some(camera) => builder.add_camera(camera),
+            let read = |place: &Placed| cameras::read(&document, place, index);
+            match read(place).map_err(|why| at(describe(), why))? {
+                Some(camera) => {
+                    if joint.is_some()
+                        && let Ok(Some(own)) = read(&place.by_itself())
+                    {
+                        let index = builder.camera_count();
+                        let subject = Subject::Still(own);
+                        motion.cameras.push(MovingElement { index, subject, hold: hold.clone() });
+                    }
+                    builder.add_camera(camera);
+                }
                 None => findings.not_drawn("orthographic cameras", describe()),
             }
         }
         if let Some(light) = &place.node.extensions.light {
-            builder
-                .add_light(lights::read(&document, place, light.light).map_err(|why| at(describe(), why))?);
+            let read = |place: &Placed| {
+                lights::read(&document, place, light.light).map_err(|why| at(describe(), why))
+            };
+            if joint.is_some() {
+                let (index, subject) = (builder.light_count(), Subject::Still(read(&place.by_itself())?));
+                motion.lights.push(MovingElement { index, subject, hold });
+            }
+            builder.add_light(read(place)?);
             findings.lights += 1;
             if findings.lights > MAX_LIGHTS {
                 return Err(at(describe(), format!("expected at most {MAX_LIGHTS} lights")));
@@ -110,7 +139,8 @@ pub(super) fn load(path: &Path, named: Container, limit: MemoryLimit) -> Result<
         }
     }
     findings.warn(&document, &mut builder);
-    Ok(builder.finish())
+    motion.rig = joints.rig;
+    Ok(Animation { rest: builder.finish(), motion, rate: None })
 }
 
 /// Extensions whose demands are met.

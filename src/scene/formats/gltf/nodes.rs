@@ -11,6 +11,15 @@ pub(super) struct Placed<'a> {
     pub(super) node: &'a Node,
     /// From the node's space to the world's; finite.
     pub(super) world: DAffine3,
+    /// The node that it hangs on.
+    pub(super) parent: Option<usize>,
+}
+
+impl Placed<'_> {
+    /// The same as it is in its own space.
+    pub(super) fn by_itself(&self) -> Self {
+        Placed { world: DAffine3::IDENTITY, ..*self }
+    }
 }
 
 /// What is wrong with a node: its index and a line.
@@ -48,7 +57,7 @@ pub(super) fn place_all(document: &Document) -> Result<Vec<Placed<'_>>, NodeErro
             return Err((index, "its transform in the world is not finite".into()));
         }
         stack.extend(node.children.iter().rev().map(|&child| (child as usize, world, depth + 1)));
-        placed.push(Placed { index, node, world });
+        placed.push(Placed { index, node, world, parent: parents[index] });
     }
     Ok(placed)
 }
@@ -118,7 +127,7 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, N
 }
 
 /// The transform of a node in its parent.
-fn local(node: &Node) -> Result<DAffine3, String> {
+pub(super) fn local(node: &Node) -> Result<DAffine3, String> {
     if let Some(m) = &node.matrix {
         return affine(m).ok_or_else(|| "expected 0 0 0 1 as the last row of its matrix".into());
     }

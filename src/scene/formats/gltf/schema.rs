@@ -41,7 +41,7 @@ pub(super) struct Document {
     #[serde(default)]
     pub(super) cameras: Vec<CameraEntry>,
     #[serde(default)]
-    pub(super) animations: Vec<IgnoredAny>,
+    pub(super) animations: Vec<AnimationEntry>,
     #[serde(default)]
     pub(super) extensions_used: Vec<String>,
     #[serde(default)]
@@ -166,6 +166,36 @@ pub(super) struct PrimitiveExtensions {
 pub(super) struct SkinEntry {
     pub(super) inverse_bind_matrices: Option<u64>,
     pub(super) joints: Vec<u64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct AnimationEntry {
+    pub(super) name: Option<String>,
+    #[serde(default)]
+    pub(super) channels: Vec<ChannelEntry>,
+    #[serde(default)]
+    pub(super) samplers: Vec<AnimationSampler>,
+}
+
+/// What of which node changes, and how.
+#[derive(Deserialize)]
+pub(super) struct ChannelEntry {
+    pub(super) sampler: u64,
+    pub(super) target: ChannelTarget,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ChannelTarget {
+    pub(super) node: Option<u64>,
+    pub(super) path: String,
+}
+
+/// Times and values.
+#[derive(Deserialize)]
+pub(super) struct AnimationSampler {
+    pub(super) input: u64,
+    pub(super) interpolation: Option<String>,
+    pub(super) output: u64,
 }
 
 #[derive(Deserialize)]

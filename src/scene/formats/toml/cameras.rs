@@ -24,11 +24,12 @@ pub(super) fn read(entry: &CameraEntry, index: usize) -> Result<Camera, String> 
             Some(size.map_err(|why| format!("size {width} x {height}: {why}"))?)
         }
     };
+    let position = entry.position.ok_or("expected a `position`, found none")?.0;
     let name = name_of("camera", index, entry.name.as_deref());
     let camera = match (entry.target, entry.axes) {
         (Some(target), None) => {
             let up = entry.up.map_or(Vec3::Y, |up| up.0);
-            looking::camera(&name, [entry.position.0, target.0, up], USUAL_DEGREES)
+            looking::camera(&name, [position, target.0, up], USUAL_DEGREES)
                 .map_err(|why| why.message("`position` and `target`"))?
         }
         (None, Some(Exactly(axes))) if entry.up.is_none() => {
@@ -38,7 +39,7 @@ pub(super) fn read(entry: &CameraEntry, index: usize) -> Result<Camera, String> 
                     "expected `axes` to be unit vectors to the right, up and ahead, at right angles".into()
                 );
             }
-            Camera { name, origin: entry.position.0, forward, right, up, tan_half_height: 1.0, size: None }
+            Camera { name, origin: position, forward, right, up, tan_half_height: 1.0, size: None }
         }
         (None, Some(_)) => return Err("`up` is for cameras with a `target`".into()),
         (None, None) => return Err("expected a `target` or `axes`, found neither".into()),

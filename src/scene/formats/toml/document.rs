@@ -1,15 +1,18 @@
 //! One file by itself: what it holds as a scene of its own, and what it includes.
 
+use super::keyframes::{self, Moved};
 use super::materials::{self, Pictures};
 use super::parts::{self, Layout};
 use super::schema::{Document, TransformEntry};
 use super::{cameras, lights, transforms};
+use crate::scene::animation::{Subject, Track};
 use crate::scene::formats::limits::{MAX_CAMERAS, MAX_LIGHTS};
 use crate::scene::formats::text::printable;
-use crate::scene::{Scene, SceneBuilder};
+use crate::scene::{Camera, FrameRate, Light, Scene, SceneBuilder};
 use glam::DAffine3;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
@@ -22,6 +25,10 @@ pub(super) struct Content {
     pub(super) name: Option<String>,
     /// The background, if it says one.
     pub(super) background: Option<[f32; 3]>,
+    /// Frames a second, if it says so.
+    pub(super) rate: Option<FrameRate>,
+    /// Its lights and cameras that move.
+    pub(super) moving: Moving,
     /// Its materials, lights and cameras, and each mesh and curved surface as an object, before anything is
     /// moved.
     pub(super) scene: Scene,
@@ -30,12 +37,30 @@ pub(super) struct Content {
     pub(super) includes: Vec<Include>,
 }
 
+/// Lights and cameras that move, by their numbers in the file's scene.
+#[derive(Default)]
+pub(super) struct Moving {
+    pub(super) lights: BTreeMap<usize, MovingElement<Light>>,
+    pub(super) cameras: BTreeMap<usize, MovingElement<Camera>>,
+}
+
+/// A light or camera that moves.
+pub(super) struct MovingElement<T> {
+    /// What it is in its own space.
+    pub(super) subject: Subject<T>,
+    /// How that space moves in the file's.
+    pub(super) track: Option<Arc<dyn Track<DAffine3>>>,
+}
+
 /// An `[[include]]`, checked but for its path.
 pub(super) struct Include {
     /// A place in the file's bytes.
     pub(super) at: usize,
     pub(super) path: String,
+    /// At rest.
     pub(super) transform: Option<DAffine3>,
+    /// How that changes.
+    pub(super) track: Option<Arc<dyn Track<DAffine3>>>,
     pub(super) casts: Option<bool>,
     pub(super) receives: Option<bool>,
     pub(super) lights: bool,
@@ -50,32 +75,60 @@ pub(super) struct Include {
 /// A place and a line for whatever is no TOML or no scene.
 pub(super) fn read(text: &str, pictures: &mut Pictures) -> Result<Content, Complaint> {
     let document = parse(text)?;
+    let rate = document
+        .fps
+        .as_ref()
+        .map(|fps| FrameRate::near(fps.get_ref().0).map_err(|why| (fps.span().start, format!("fps: {why}"))));
+    let rate = rate.transpose()?;
+    let frames = rate.unwrap_or_default();
     let mut builder = SceneBuilder::new("");
     let library = materials::read(&document.materials, pictures, &mut builder)?;
-    let layout = parts::read(&document, &library, &mut builder)?;
+    let layout = parts::read(&document, &library, frames, &mut builder)?;
     limit(&document.lights, MAX_LIGHTS as u64, "lights")?;
+    let mut moving = Moving::default();
     for (index, entry) in document.lights.iter().enumerate() {
-        let light = lights::read(entry.get_ref(), index);
-        builder.add_light(light.map_err(|why| {
-            let name = entry.get_ref().name.as_deref();
-            (entry.span().start, format!("{}: {why}", describe("light", index, name)))
-        })?);
+        let about = describe("light", index, entry.get_ref().name.as_deref());
+        let at = |why: String| (entry.span().start, format!("{about}: {why}"));
+        let light = match keyframes::of_light(entry.get_ref(), index, &about, frames)? {
+            None => lights::read(entry.get_ref(), index).map_err(at)?,
+            Some(element) => {
+                let own = lights::read(&element.rest, index).map_err(at)?;
+                let (rest, track) = at_rest(&own, element.moved, Light::transformed).map_err(at)?;
+                let subject = element.own.map_or(Subject::Still(own), Subject::Moving);
+                moving.lights.insert(index, MovingElement { subject, track });
+                rest
+            }
+        };
+        builder.add_light(light);
     }
     limit(&document.cameras, MAX_CAMERAS, "cameras")?;
     for (index, entry) in document.cameras.iter().enumerate() {
-        let camera = cameras::read(entry.get_ref(), index);
-        builder.add_camera(camera.map_err(|why| {
-            let name = entry.get_ref().name.as_deref();
-            (entry.span().start, format!("{}: {why}", describe("camera", index, name)))
-        })?);
+        let about = describe("camera", index, entry.get_ref().name.as_deref());
+        let at = |why: String| (entry.span().start, format!("{about}: {why}"));
+        let camera = match keyframes::of_camera(entry.get_ref(), index, &about, frames)? {
+            None => cameras::read(entry.get_ref(), index).map_err(at)?,
+            Some(element) => {
+                let own = cameras::read(&element.rest, index).map_err(at)?;
+                let (rest, track) = at_rest(&own, element.moved, Camera::transformed).map_err(at)?;
+                let subject = element.own.map_or(Subject::Still(own), Subject::Moving);
+                moving.cameras.insert(index, MovingElement { subject, track });
+                rest
+            }
+        };
+        builder.add_camera(camera);
     }
     let mut includes = Vec::new();
     for entry in document.includes {
         let at = entry.span().start;
         let entry = entry.into_inner();
+        let about = format!("include `{}`", printable(&entry.path));
+        let base = entry.transform.as_ref();
+        let (transform, track) =
+            moved(transform(base)?, keyframes::of_transform(entry.keyframes.as_ref(), base, &about, frames)?);
         includes.push(Include {
             at,
-            transform: transform(entry.transform.as_ref())?,
+            transform,
+            track,
             casts: entry.cast_shadows,
             receives: entry.receive_shadows,
             lights: entry.lights.unwrap_or(true),
@@ -86,7 +139,29 @@ pub(super) fn read(text: &str, pictures: &mut Pictures) -> Result<Content, Compl
     }
     let name = document.name.as_deref().map(printable);
     let background = document.background.map(|colour| colour.0);
-    Ok(Content { name, background, scene: builder.finish(), layout, includes })
+    Ok(Content { name, background, rate, moving, scene: builder.finish(), layout, includes })
+}
+
+/// A light or camera at rest, where its keyframes move it as a whole, and how they do.
+fn at_rest<T: Clone>(
+    own: &T,
+    moved: Option<Moved>,
+    transformed: impl Fn(&T, &DAffine3) -> Option<T>,
+) -> Result<(T, Option<Arc<dyn Track<DAffine3>>>), String> {
+    let Some(Moved { rest, track }) = moved else { return Ok((own.clone(), None)) };
+    let rest = rest.map_or_else(|| Some(own.clone()), |rest| transformed(own, &rest));
+    Ok((rest.ok_or("its keyframes leave it no place or no direction")?, Some(track)))
+}
+
+/// A transform at rest, and how it changes: by keyframes, if there are such.
+pub(super) fn moved(
+    still: Option<DAffine3>,
+    moved: Option<Moved>,
+) -> (Option<DAffine3>, Option<Arc<dyn Track<DAffine3>>>) {
+    match moved {
+        None => (still, None),
+        Some(Moved { rest, track }) => (rest, Some(track)),
+    }
 }
 
 fn parse(text: &str) -> Result<Document, Complaint> {

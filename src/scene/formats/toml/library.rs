@@ -1,17 +1,18 @@
 //! The files of a scene, each read once however often it is included.
 
-use super::document::{self, Complaint, Content, Include};
+use super::document::{self, Complaint, Content, Include, Moving};
 use super::parts::Layout;
 use super::totals::{Held, Totals};
 use crate::error::{Error, Place, Result};
 use crate::memory::MemoryLimit;
+use crate::scene::animation::Motion;
 use crate::scene::formats::confined::{self, Room};
 use crate::scene::formats::limits::{MAX_ALL_TEXELS, MAX_INCLUDE_DEPTH};
 use crate::scene::formats::limits::{MAX_REFERENCED_BYTES, MAX_TOML_BYTES};
 use crate::scene::formats::pictures;
 use crate::scene::formats::text::printable;
 use crate::scene::formats::{self, Format};
-use crate::scene::{Image, Scene};
+use crate::scene::{Animation, FrameRate, Image, Scene};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,6 +46,12 @@ pub(super) struct Source {
     pub(super) scene: Scene,
     /// What becomes of the objects of that.
     pub(super) layout: Layout,
+    /// Its lights and cameras that move.
+    pub(super) moving: Moving,
+    /// What moves in a file of another format.
+    pub(super) motion: Motion,
+    /// Frames a second, if it says so.
+    pub(super) rate: Option<FrameRate>,
     /// The background, if it or what it includes says one.
     pub(super) background: Option<[f32; 3]>,
     pub(super) inclusions: Vec<Inclusion>,
@@ -95,7 +102,7 @@ impl Library {
             .map_err(|error| complaint((error.valid_up_to(), "expected text in UTF-8".into())))?;
         let room = Room::beside(path)?;
         let content = document::read(text, &mut |name| self.picture(&room, name)).map_err(complaint)?;
-        let Content { name, mut background, scene, layout, includes } = content;
+        let Content { name, mut background, rate, moving, scene, layout, includes } = content;
         self.held.add(&scene).map_err(|why| Error::input(path, Place::File, why))?;
         let own = Totals { objects: layout.objects.len() as u64, ..Totals::of(&scene) };
         let mut totals =
@@ -123,7 +130,12 @@ impl Library {
             inclusions.push(Inclusion { source, line, entry });
         }
         let canonical = self.open.pop().expect("pushed above");
-        self.keep(canonical, Source { path: path.into(), scene, layout, background, inclusions, totals });
+        let motion = Motion::default();
+        let path = path.into();
+        self.keep(
+            canonical,
+            Source { path, scene, layout, moving, motion, rate, background, inclusions, totals },
+        );
         Ok(name)
     }
 
@@ -159,12 +171,15 @@ impl Library {
                 self.bytes_left = self.bytes_left.checked_sub(bytes).ok_or_else(|| {
                     error(format!("all included files hold more than {MAX_REFERENCED_BYTES} bytes"))
                 })?;
-                let scene = formats::load_within(&shown, self.limit)?;
+                let Animation { rest: scene, motion, rate } = formats::load_animation(&shown, self.limit)?;
                 self.held.add(&scene).map_err(error)?;
                 let totals = Totals::of(&scene);
                 let source = Source {
                     path: shown,
                     layout: Layout::of(&scene),
+                    moving: Moving::default(),
+                    motion,
+                    rate,
                     background: Some(scene.background).filter(|colour| *colour != [0.0; 3]),
                     scene,
                     inclusions: Vec::new(),

@@ -4,24 +4,29 @@
 //! what one of them says about its name, its material and its part in shadows is said for all, and they may
 //! not contradict each other. Objects come in the order of their first parts in the file, whatever their kind.
 
-use super::document::{Complaint, Library, describe, name_of, transform};
+use super::document::{Complaint, Library, describe, moved, name_of, transform};
+use super::keyframes;
 use super::meshes;
 use super::schema::{About, Document, MeshEntry};
 use super::shapes;
 use crate::geometry::curved::Shape;
+use crate::scene::animation::Track;
 use crate::scene::formats::limits::MAX_OBJECTS;
 use crate::scene::formats::text::printable;
-use crate::scene::{ObjectInput, Scene, SceneBuilder, Shadowing};
+use crate::scene::{FrameRate, ObjectInput, Scene, SceneBuilder, Shadowing};
 use glam::DAffine3;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 use toml::Spanned;
 
 /// How a file's objects are put together from the objects of its scene, each of which is a part.
 #[derive(Default)]
 pub(super) struct Layout {
-    /// Where each part goes.
+    /// Where each part goes, at rest.
     pub(super) transforms: Vec<Option<DAffine3>>,
+    /// How that changes.
+    pub(super) tracks: Vec<Option<Arc<dyn Track<DAffine3>>>>,
     /// The parts of each object.
     pub(super) objects: Vec<Range<usize>>,
 }
@@ -30,7 +35,11 @@ impl Layout {
     /// Of a scene whose objects stay as they are.
     pub(super) fn of(scene: &Scene) -> Layout {
         let count = scene.objects.len();
-        Layout { transforms: vec![None; count], objects: (0..count).map(|i| i..i + 1).collect() }
+        Layout {
+            transforms: vec![None; count],
+            tracks: vec![None; count],
+            objects: (0..count).map(|i| i..i + 1).collect(),
+        }
     }
 }
 
@@ -74,6 +83,7 @@ struct Group<'a> {
 pub(super) fn read(
     document: &Document,
     library: &Library,
+    rate: FrameRate,
     builder: &mut SceneBuilder,
 ) -> Result<Layout, Complaint> {
     let mut layout = Layout::default();
@@ -83,7 +93,9 @@ pub(super) fn read(
         let (material, shadowing) = (group.material.unwrap_or_default(), group.shadowing());
         let name = group.name();
         for part in &group.parts {
-            let transform = transform(part.about.transform)?;
+            let base = part.about.transform;
+            let keyframes = keyframes::of_transform(part.about.keyframes, base, &part.describe(), rate)?;
+            let (transform, track) = moved(transform(base)?, keyframes);
             let input = ObjectInput {
                 name: name.clone(),
                 material,
@@ -109,6 +121,7 @@ pub(super) fn read(
             }
             builder.add_object(input).map_err(|error| (part.at, error.to_string()))?;
             layout.transforms.push(transform);
+            layout.tracks.push(track);
         }
         layout.objects.push(first..layout.transforms.len());
     }

@@ -14,6 +14,7 @@ pub(super) struct Document {
     pub(super) _version: i64,
     pub(super) name: Option<String>,
     pub(super) background: Option<Strength>,
+    pub(super) fps: Option<Spanned<Number>>,
     #[serde(default, rename = "include")]
     pub(super) includes: Vec<Spanned<IncludeEntry>>,
     #[serde(default, rename = "material")]
@@ -46,6 +47,7 @@ pub(super) struct Document {
 pub(super) struct IncludeEntry {
     pub(super) path: String,
     pub(super) transform: Option<Spanned<TransformEntry>>,
+    pub(super) keyframes: Option<Spanned<Vec<Spanned<TransformKey>>>>,
     pub(super) cast_shadows: Option<bool>,
     pub(super) receive_shadows: Option<bool>,
     pub(super) lights: Option<bool>,
@@ -54,7 +56,7 @@ pub(super) struct IncludeEntry {
 }
 
 /// Where something goes.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TransformEntry {
     pub(super) matrix: Option<Exactly<Exactly<Number, 4>, 4>>,
@@ -64,11 +66,61 @@ pub(super) struct TransformEntry {
 }
 
 /// A turn around an axis.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RotationEntry {
     pub(super) axis: Exactly<Number, 3>,
     pub(super) degrees: Number,
+}
+
+/// How something goes from one keyframe to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum InterpolationName {
+    Linear,
+    Step,
+}
+
+/// Where something is at a frame.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TransformKey {
+    pub(super) frame: Number,
+    pub(super) interpolation: Option<InterpolationName>,
+    pub(super) scale: Option<OneOrThree>,
+    pub(super) rotate: Option<RotationEntry>,
+    pub(super) translate: Option<Exactly<Number, 3>>,
+}
+
+/// A light at a frame.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LightKey {
+    pub(super) frame: Number,
+    pub(super) interpolation: Option<InterpolationName>,
+    pub(super) position: Option<Point>,
+    pub(super) target: Option<Point>,
+    pub(super) direction: Option<Direction>,
+    pub(super) towards: Option<Direction>,
+    pub(super) intensity: Option<Strength>,
+    pub(super) irradiance: Option<Strength>,
+    pub(super) rotate: Option<RotationEntry>,
+    pub(super) translate: Option<Exactly<Number, 3>>,
+}
+
+/// A camera at a frame.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CameraKey {
+    pub(super) frame: Number,
+    pub(super) interpolation: Option<InterpolationName>,
+    pub(super) position: Option<Point>,
+    pub(super) target: Option<Point>,
+    pub(super) up: Option<Direction>,
+    pub(super) vertical_degrees: Option<Number>,
+    pub(super) half_height: Option<Number>,
+    pub(super) rotate: Option<RotationEntry>,
+    pub(super) translate: Option<Exactly<Number, 3>>,
 }
 
 /// How a surface reflects light.
@@ -115,6 +167,7 @@ pub(super) struct About<'a> {
     pub(super) object: Option<&'a str>,
     pub(super) material: Option<&'a Spanned<String>>,
     pub(super) transform: Option<&'a Spanned<TransformEntry>>,
+    pub(super) keyframes: Option<&'a Spanned<Vec<Spanned<TransformKey>>>>,
     pub(super) cast_shadows: Option<bool>,
     pub(super) receive_shadows: Option<bool>,
 }
@@ -131,6 +184,7 @@ macro_rules! part {
             object: Option<String>,
             material: Option<Spanned<String>>,
             transform: Option<Spanned<TransformEntry>>,
+            keyframes: Option<Spanned<Vec<Spanned<TransformKey>>>>,
             cast_shadows: Option<bool>,
             receive_shadows: Option<bool>,
         }
@@ -142,6 +196,7 @@ macro_rules! part {
                     object: self.object.as_deref(),
                     material: self.material.as_ref(),
                     transform: self.transform.as_ref(),
+                    keyframes: self.keyframes.as_ref(),
                     cast_shadows: self.cast_shadows,
                     receive_shadows: self.receive_shadows,
                 }
@@ -221,7 +276,7 @@ part! {
 }
 
 /// A light of any kind; which keys a kind has is checked afterwards.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LightEntry {
     pub(super) name: Option<String>,
@@ -237,6 +292,7 @@ pub(super) struct LightEntry {
     pub(super) outer_degrees: Option<Number>,
     pub(super) towards: Option<Direction>,
     pub(super) irradiance: Option<Strength>,
+    pub(super) keyframes: Option<Spanned<Vec<Spanned<LightKey>>>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -255,15 +311,16 @@ pub(super) enum FalloffName {
 }
 
 /// A camera.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CameraEntry {
     pub(super) name: Option<String>,
-    pub(super) position: Point,
+    pub(super) position: Option<Point>,
     pub(super) target: Option<Point>,
     pub(super) up: Option<Direction>,
     pub(super) axes: Option<Exactly<Point, 3>>,
     pub(super) vertical_degrees: Option<Number>,
     pub(super) half_height: Option<Number>,
     pub(super) size: Option<Exactly<u32, 2>>,
+    pub(super) keyframes: Option<Spanned<Vec<Spanned<CameraKey>>>>,
 }

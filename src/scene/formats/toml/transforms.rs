@@ -48,18 +48,23 @@ fn affine(Exactly(rows): &Exactly<Exactly<Number, 4>, 4>) -> Result<DAffine3, St
 }
 
 /// The matrix of a right-handed turn.
-fn rotation(RotationEntry { axis, degrees }: &RotationEntry) -> Result<DMat3, String> {
-    let axis = axis.vector();
-    let size = axis.abs().max_element();
-    // Scaled first: the square of a length near the ends of the range would overflow or vanish.
-    let axis = (axis / size).try_normalize().ok_or("expected `axis` to be a direction, found zero")?;
-    let (sin, cos) = sin_cos_degrees(degrees.0);
+pub(super) fn rotation(turn: &RotationEntry) -> Result<DMat3, String> {
+    let axis = axis(turn)?;
+    let (sin, cos) = sin_cos_degrees(turn.degrees.0);
     let (along, rest) = (axis * sin, axis * (1.0 - cos));
     Ok(DMat3::from_cols(
         rest.x * axis + DVec3::new(cos, along.z, -along.y),
         rest.y * axis + DVec3::new(-along.z, cos, along.x),
         rest.z * axis + DVec3::new(along.y, -along.x, cos),
     ))
+}
+
+/// The axis of a turn, of length 1.
+pub(super) fn axis(turn: &RotationEntry) -> Result<DVec3, String> {
+    let axis = turn.axis.vector();
+    let size = axis.abs().max_element();
+    // Scaled first: the square of a length near the ends of the range would overflow or vanish.
+    (axis / size).try_normalize().ok_or_else(|| "expected `axis` to be a direction, found zero".into())
 }
 
 /// Sine and cosine of an angle in degrees, the same on every platform and exact at right angles.
