@@ -7,6 +7,7 @@ mod epsilon;
 mod exr_tools;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
+mod frames;
 #[cfg(unix)]
 mod full_disks;
 mod fuzz;

@@ -4,6 +4,7 @@ mod cases;
 mod curved;
 #[cfg(feature = "embree")]
 mod embree;
+mod frames;
 mod random;
 mod runner;
 mod shadow_buffer;

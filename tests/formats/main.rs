@@ -1,5 +1,6 @@
 //! What valid scene files become.
 
+mod animations;
 mod demo_scenes;
 mod fixtures;
 mod gltf_accessors;

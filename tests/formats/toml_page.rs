@@ -66,7 +66,7 @@ fn the_short_examples_are_read_together() {
     let text = short.replace("[[mesh]]\n", &format!("[[mesh]]\n{transform}"));
     let scene = formats::load(&folder.write("short.toml", text)).unwrap();
     assert_eq!((scene.triangles.len(), scene.lights.len(), scene.cameras.len()), (3, 1, 1));
-    assert_eq!((scene.curved.len(), scene.objects.len(), scene.textures.len()), (4, 5, 2));
+    assert_eq!((scene.curved.len(), scene.objects.len(), scene.textures.len()), (5, 6, 2));
 }
 
 #[test]

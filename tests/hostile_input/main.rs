@@ -1,6 +1,7 @@
 //! Files that lie, overflow, escape or break off: one line that names file and place, no panic, and no more
 //! memory than the file's own bytes justify.
 
+mod animations;
 mod binary_files;
 #[path = "../formats/fixtures.rs"]
 mod fixtures;
