@@ -211,3 +211,29 @@ fn what_no_frame_asks_for_goes_and_too_little_memory_is_no_failure() {
     assert_eq!(tight.unwrap().origin, Origin::Built);
     assert_eq!(keeper.tester(entry, &settings).unwrap().origin, Origin::Built, "it was let go");
 }
+
+/// Answers to the queries of a light in one frame, by a tester that was built for the objects and the light of another one.
+fn stale(entry: &TesterEntry, light: &str, built: u32, asked: u32) -> (Vec<bool>, Vec<bool>) {
+    let animation = animation();
+    let [built, asked] = [built, asked].map(|frame| animation.scene_at(f64::from(frame) / 24.0).unwrap());
+    let of = |scene: &Scene| scene.lights.iter().find(|found| found.name == light).unwrap().clone();
+    let queries = Queries::new(&asked, &visible(&asked), &of(&asked));
+    let [old_index, index] = [&built, &asked].map(SceneIndex::new);
+    let old = BuildInput::new(&built, &old_index, of(&built).position());
+    let new = BuildInput::new(&asked, &index, of(&asked).position());
+    (answers(&mut Fresh, entry, &old, &queries).0, answers(&mut Fresh, entry, &new, &queries).0)
+}
+
+#[test]
+fn a_tester_that_outlived_a_motion_would_be_noticed() {
+    for entry in compared() {
+        // The block moves between these frames, and the light between those.
+        for (light, built, asked) in [("still", 4, 5), ("still", 5, 6), ("sun", 4, 6), ("moving", 1, 2)] {
+            let (old, new) = stale(entry, light, built, asked);
+            let differ = old.iter().zip(&new).filter(|(old, new)| old != new).count();
+            assert!(differ > 0, "{} of {light}, of frame {built} in frame {asked}", entry.name);
+        }
+        let (old, new) = stale(entry, "still", 1, 4);
+        assert_eq!(old, new, "{}: nothing that matters has moved", entry.name);
+    }
+}
