@@ -27,7 +27,9 @@ fn builds(facts: &Value, light: &str) -> Vec<(bool, u64)> {
 
 /// A small scene that a camera goes around, under one light.
 fn going_around(folder: &Folder) -> String {
-    folder.write("blocks.obj", std::fs::read(BLOCKS).unwrap());
+    for name in ["blocks.obj", "blocks.mtl"] {
+        folder.write(name, std::fs::read(Path::new("scenes").join(name)).unwrap());
+    }
     let scene = "version = 1\n\
         [[include]]\npath = 'blocks.obj'\n\
         [[light]]\nname = 'lamp'\ntype = 'point'\nposition = [3, 6, 4]\nintensity = 60\n\
@@ -61,7 +63,7 @@ fn kept_and_rebuilt_frames_are_the_same_files() {
     let frames = |name: &str, options: &[&str]| {
         let out = folder.path(&format!("{name}/f.##.exr"));
         std::fs::create_dir_all(out.parent().unwrap()).unwrap();
-        let options = [&["--frames", "1-4,11-14,24", "--json", "-"], options].concat();
+        let options = [&["--frames", "1-4,11-14,24", "--json", "-"][..], options].concat();
         json(&render(CAROUSEL, &out, &options).done().stdout)
     };
     let kept = frames("kept", &[]);
@@ -104,7 +106,7 @@ fn every_tester_is_right_in_every_frame() {
 fn files_say_which_frame_they_are_and_how_many_there_are_a_second() {
     let folder = Folder::new();
     let frame = |options: &[&str]| {
-        let options = [&["--frames", "7", "--no-shadows"], options].concat();
+        let options = [&["--frames", "7", "--no-shadows"][..], options].concat();
         render(CAROUSEL, &folder.path("x.exr"), &options).done();
         read_exr(&folder.path("x.0007.exr")).unwrap()
     };
