@@ -13,7 +13,7 @@ fn moving() -> Value {
     document["animations"] = json!([{
         "name": "walk",
         "channels": [{ "sampler": 0, "target": { "node": 0, "path": "translation" } }],
-        "samplers": [{ "input": times, "output": places }],
+        "samplers": [{ "input": times, "output": places, "interpolation": "LINEAR" }],
     }]);
     document
 }

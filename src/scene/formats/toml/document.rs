@@ -19,6 +19,9 @@ use toml::de::{DeTable, DeValue, Deserializer};
 /// Where something is wrong, as a place in the file's bytes, and what.
 pub(super) type Complaint = (usize, String);
 
+/// How a transform changes.
+pub(super) type Course = Arc<dyn Track<DAffine3>>;
+
 /// A file by itself.
 pub(super) struct Content {
     /// The scene's name, if the file gives it one.
@@ -49,7 +52,7 @@ pub(super) struct MovingElement<T> {
     /// What it is in its own space.
     pub(super) subject: Subject<T>,
     /// How that space moves in the file's.
-    pub(super) track: Option<Arc<dyn Track<DAffine3>>>,
+    pub(super) track: Option<Course>,
 }
 
 /// An `[[include]]`, checked but for its path.
@@ -60,7 +63,7 @@ pub(super) struct Include {
     /// At rest.
     pub(super) transform: Option<DAffine3>,
     /// How that changes.
-    pub(super) track: Option<Arc<dyn Track<DAffine3>>>,
+    pub(super) track: Option<Course>,
     pub(super) casts: Option<bool>,
     pub(super) receives: Option<bool>,
     pub(super) lights: bool,
@@ -147,17 +150,14 @@ fn at_rest<T: Clone>(
     own: &T,
     moved: Option<Moved>,
     transformed: impl Fn(&T, &DAffine3) -> Option<T>,
-) -> Result<(T, Option<Arc<dyn Track<DAffine3>>>), String> {
+) -> Result<(T, Option<Course>), String> {
     let Some(Moved { rest, track }) = moved else { return Ok((own.clone(), None)) };
     let rest = rest.map_or_else(|| Some(own.clone()), |rest| transformed(own, &rest));
     Ok((rest.ok_or("its keyframes leave it no place or no direction")?, Some(track)))
 }
 
 /// A transform at rest, and how it changes: by keyframes, if there are such.
-pub(super) fn moved(
-    still: Option<DAffine3>,
-    moved: Option<Moved>,
-) -> (Option<DAffine3>, Option<Arc<dyn Track<DAffine3>>>) {
+pub(super) fn moved(still: Option<DAffine3>, moved: Option<Moved>) -> (Option<DAffine3>, Option<Course>) {
     match moved {
         None => (still, None),
         Some(Moved { rest, track }) => (rest, Some(track)),
