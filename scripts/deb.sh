@@ -45,7 +45,18 @@ $package ($version-1) unstable; urgency=medium
  -- $maintainer  $(date -u -R -d "@$SOURCE_DATE_EPOCH")
 CHANGES
 done
-"$cargo" deb --no-build --maintainer "$maintainer"
+"$cargo" deb --no-build --strip --maintainer "$maintainer"
 for variant in library development; do
     "$cargo" deb --no-build --maintainer "$maintainer" --multiarch same --variant "$variant"
 done
+
+# What the library needs, by the symbols that it asks for.
+library=$(cd "$from/lib" && ls "$PWD"/liblightbuffer.so.*.*.*)
+mkdir -p "$from/needs/debian"
+touch "$from/needs/debian/control"
+needs=$(cd "$from/needs" && dpkg-shlibdeps -O "$library" 2>/dev/null | sed -n 's/^shlibs:Depends=//p')
+[ -n "$needs" ] || { echo "make deb: dpkg-shlibdeps says nothing of $library" >&2; exit 1; }
+package=$(ls target/debian/liblightbuffer0_"$version"-1_*.deb)
+dpkg-deb --raw-extract "$package" "$from/repack"
+sed -i "s/^Depends: .*/Depends: $needs/" "$from/repack/DEBIAN/control"
+dpkg-deb --root-owner-group --build "$from/repack" "$package" >/dev/null
