@@ -193,14 +193,15 @@ mod tests {
         /// Corners lie on rays, exactly, so that edges and ties are met by rays that nothing but exact signs decides.
         #[test]
         fn corners_on_rays_are_seen_as_by_classical_ray_tracing(
-            corners in prop::collection::vec(prop::array::uniform3((0u32..41, 0u32..35, -2i32..3)), 1..12),
+            corners in prop::collection::vec(prop::array::uniform3((0u32..5, 0u32..5, -1i32..2)), 1..12),
             narrow in any::<bool>(),
         ) {
             let target = Vec3::new(0.3, -0.2, -1.0);
             let camera = Camera::look_at("c", Vec3::ZERO, target, Vec3::Y, if narrow { 9.0 } else { 75.0 });
             let size = ImageSize { width: 41, height: 35 };
             let raster = camera.raster(size);
-            let corner = |(x, y, power): (u32, u32, i32)| camera.direction(&raster, x, y) * 2f32.powi(power);
+            // So few rays that triangles share corners and edges.
+            let corner = |(x, y, power): (u32, u32, i32)| camera.direction(&raster, 10 * x, 8 * y) * 2f32.powi(power);
             let scene = scene(&corners.into_iter().map(|t| t.map(corner)).collect::<Vec<_>>());
             let traced = classical::first_hits(&scene, &camera, size);
             for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
