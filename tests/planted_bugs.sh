@@ -228,7 +228,7 @@ plant nearest-by-its-rounding $first_hits/draw.rs \
 
 plant hidden-by-its-farthest-corner $first_hits/bins.rs \
     'nearest[i] = larger(larger(a, b), c);' 'nearest[i] = smaller(smaller(a, b), c);' \
-    crowds_are_seen_as_by_classical_ray_tracing
+    equals_classical_ray_tracing_in_any_object_order
 
 frames=kept_testers_answer_as_those_that_are_built_for_the_frame
 
