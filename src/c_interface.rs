@@ -9,14 +9,16 @@
 
 mod asking;
 mod pool;
+mod refusal;
 
 use crate::error::OneLine;
 use crate::float_environment::standard;
 use crate::geometry::LightPosition;
 use crate::memory::MemoryLimit;
 use crate::shadow::{Receivers, Resolution};
-use asking::{Answer, Asked, Choice, MeshArrays, Model, Refusal};
+use asking::{Answer, Asked, Choice, MeshArrays, Model};
 use pool::Pool;
+use refusal::Refusal;
 use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};

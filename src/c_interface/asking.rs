@@ -1,8 +1,8 @@
 //! What the handles are of: a scene with what is found in it once, and a tester that is asked about points of it.
 
 use super::pool::Pool;
+use super::refusal::Refusal;
 use super::{NO_TRIANGLE, Ray as GivenRay};
-use crate::error::Error;
 use crate::float_environment::InStandardFloats;
 use crate::geometry::LightPosition;
 use crate::geometry::curved::RayStart;
@@ -20,22 +20,6 @@ use glam::Vec3;
 use rayon::prelude::*;
 use self_cell::self_cell;
 use std::sync::{Arc, OnceLock};
-
-/// Why there is no result, in one line.
-#[derive(Debug)]
-pub enum Refusal {
-    /// An argument is wrong.
-    Argument(String),
-    /// The arguments are right, and nothing comes of them.
-    Refused(String),
-}
-
-impl Refusal {
-    fn of(error: &Error) -> Refusal {
-        // The limit is an option of the program, and a setting here.
-        Refusal::Refused(error.to_string().replace("--memory-limit", "the memory limit"))
-    }
-}
 
 /// A mesh as the caller has it.
 pub struct MeshArrays<'a> {

@@ -1,6 +1,6 @@
 //! Threads that build and answer, shared by all who want the same number of them.
 
-use super::asking::Refusal;
+use super::refusal::Refusal;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::JoinHandle;
 

@@ -1,7 +1,7 @@
 //! Some rows of the t-buffer: what is nearest at each pixel so far, and how near.
 
 use super::bins::Touched;
-use super::view::View;
+use super::view::{BAND_ROWS, View};
 use crate::geometry::batch::LANES;
 use crate::geometry::curved::RayStart;
 use crate::geometry::fetch::fetch;
@@ -9,9 +9,6 @@ use crate::geometry::ray_triangle::RayTriangle;
 use crate::scene::PrimitiveIndex;
 use crate::visibility::hit::{Hit, is_there, keep_nearer};
 use glam::Vec3;
-
-/// Rows of a band.
-pub(super) const BAND_ROWS: usize = 32;
 
 /// Rows and columns of a block, over which the least nearness is known.
 const BLOCK: [usize; 2] = [8, LANES];
@@ -122,7 +119,7 @@ impl Band {
     /// Fetches the items that a small triangle may need.
     #[inline(always)]
     pub fn fetch(&self, touched: &Touched) {
-        let first = self.place([touched.columns[0], touched.rows_of(self)[0]]);
+        let first = self.place([touched.columns[0], touched.rows_from(self.first_row)[0]]);
         for place in [first, (first + self.pitch).min(self.items.len() - 1)] {
             fetch(&self.least[place]);
             fetch(&self.most[place]);

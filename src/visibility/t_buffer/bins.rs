@@ -1,8 +1,7 @@
 //! Which triangles may be seen in which band of rows, by the boxes around their projections.
 
-use super::band::{BAND_ROWS, Band};
 use super::places::{BEHIND, Place};
-use super::view::View;
+use super::view::{BAND_ROWS, View};
 use crate::float_environment::InStandardFloats;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::dispatch::for_instruction_sets;
@@ -36,10 +35,10 @@ impl Touched {
     /// In place of one.
     pub const NOTHING: Touched = Touched { primitive: 0, nearness: 0.0, columns: [0; 2], rows: [0; 2] };
 
-    /// First and last row.
+    /// First and last row of the picture, with the first of the band.
     #[inline(always)]
-    pub fn rows_of(&self, band: &Band) -> [u32; 2] {
-        [band.first_row + u32::from(self.rows[0]), band.first_row + u32::from(self.rows[1])]
+    pub fn rows_from(&self, first_row: u32) -> [u32; 2] {
+        [first_row + u32::from(self.rows[0]), first_row + u32::from(self.rows[1])]
     }
 }
 

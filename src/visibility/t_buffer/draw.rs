@@ -58,7 +58,7 @@ fn rows<const COLUMNS: usize>(
     let [s, t, u] = &cast.sides;
     let spans = Spans::of(cast);
     let certainty = !view.has_holes || view.scene.masked(touched.primitive).is_none();
-    let [mut row, last_row] = touched.rows_of(band);
+    let [mut row, last_row] = touched.rows_from(band.first_row);
     while row <= last_row {
         let y = view.grid.origin[1] + view.grid.step[1] * f64::from(row);
         let of_row = [s.ramp.of_row(y), t.ramp.of_row(y), u.ramp.of_row(y)];

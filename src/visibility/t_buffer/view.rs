@@ -9,6 +9,9 @@ use glam::{DVec3, Vec3};
 /// is 1 within 2^-22 of their length.
 const WIDEST_IMAGE: f64 = 1_048_576.0;
 
+/// Rows of a band.
+pub(super) const BAND_ROWS: usize = 32;
+
 /// The most that the column or row of a vertex' place may be wrong by beside its own rounding, in pixels.
 pub(super) const PLACE_ERROR: f64 = 1.0 / 1024.0;
 
