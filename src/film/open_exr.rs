@@ -83,7 +83,7 @@ fn header(image: &ImagePlanes, planes: &[&Plane]) -> Header {
         LineOrder::Increasing,
     );
     if let Some(Window { of, first_row }) = image.window() {
-        // An image has at most 2^28 rows.
+        // `set_window` takes no more rows than fit.
         header.own_attributes.layer_position = Vec2(0, first_row as i32);
         header.shared_attributes.display_window =
             IntegerBounds::from_dimensions(Vec2(of.width as usize, of.height as usize));

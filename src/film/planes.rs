@@ -16,6 +16,9 @@ pub struct Plane {
     pub samples: Vec<f32>,
 }
 
+/// The last row that a window of an OpenEXR file may have, and one more.
+const MOST_ROWS: u32 = i32::MAX as u32;
+
 /// An image as planes of one size, with text attributes. Names are unique among channels and among
 /// attributes.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +96,8 @@ impl ImagePlanes {
     pub fn set_window(&mut self, window: Window) -> Result<()> {
         let Window { of, first_row } = window;
         let ImageSize { width, height } = self.size;
-        if width != of.width || first_row.checked_add(height).is_none_or(|end| end > of.height) {
+        let fits = first_row.checked_add(height).is_some_and(|end| end <= of.height.min(MOST_ROWS));
+        if width != of.width || !fits {
             return Err(Error::Usage(format!(
                 "{width}x{height} pixels from row {first_row}: no rows of an image of {}x{}",
                 of.width, of.height
