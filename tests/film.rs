@@ -253,7 +253,8 @@ fn rows_of_a_larger_image_come_back_with_their_place() {
     image.set_window(window).unwrap();
     write_exr(&path, &image).unwrap();
     assert_eq!(read_exr(&path).unwrap(), image);
-    let output = Command::new("exrheader").arg(&path).output().expect("exrheader, of Debian's package openexr");
+    let output =
+        Command::new("exrheader").arg(&path).output().expect("exrheader, of Debian's package openexr");
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(text.contains("dataWindow (type box2i): (0 48) - (2 67)"), "{text}");
     assert!(text.contains("displayWindow (type box2i): (0 0) - (2 99)"), "{text}");

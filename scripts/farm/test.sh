@@ -6,6 +6,7 @@ set -euo pipefail
 
 cd "$(dirname "$0")/../.."
 repository=$PWD
+command -v parallel >/dev/null || { echo "farm: GNU parallel is missing: install Debian's parallel" >&2; exit 2; }
 LIGHTBUFFER=$(realpath "${1:-target/release/lightbuffer}")
 export LIGHTBUFFER
 farm=scripts/farm

@@ -67,7 +67,10 @@ fn strips_of_any_number_are_the_bytes_of_a_single_process() {
             let merged = folder.path("merged.exr");
             merge(&["-o", merged.to_str().unwrap()], &shards).done();
             assert!(bytes(&merged) == bytes(&whole), "{scene} {options:?} {of}");
-            assert!(bytes(&folder.path("merged.png")) == bytes(&folder.path("whole.png")), "{options:?} {of}");
+            assert!(
+                bytes(&folder.path("merged.png")) == bytes(&folder.path("whole.png")),
+                "{options:?} {of}"
+            );
         }
     }
 }
@@ -141,11 +144,15 @@ fn merge_refuses_what_is_missing_doubled_or_foreign_and_writes_nothing() {
         refused(&[top.clone(), foreign, bottom.clone()], &[&format!("{name}.shard-2-of-3.exr: "), words]);
     }
     // One byte of the scene's file that no shadow depends on.
-    let text = String::from_utf8(bytes(Path::new(CAROUSEL))).unwrap().replacen("diffuse = 0.6", "diffuse = 0.5", 1);
+    let text =
+        String::from_utf8(bytes(Path::new(CAROUSEL))).unwrap().replacen("diffuse = 0.6", "diffuse = 0.5", 1);
     let scene = folder.write("carousel.toml", text);
     let foreign = folder.path("scene.exr");
     render(scene.to_str().unwrap(), &foreign, &[&options[..], &["--shard", "2/3"]].concat()).done();
-    refused(&[top.clone(), folder.path("scene.shard-2-of-3.exr"), bottom], &["another picture: sceneFiles is"]);
+    refused(
+        &[top.clone(), folder.path("scene.shard-2-of-3.exr"), bottom],
+        &["another picture: sceneFiles is"],
+    );
     let whole = folder.path("whole.exr");
     render(CAROUSEL, &whole, &options).done();
     refused(&[whole], &["whole.exr: no shard of render"]);
@@ -159,12 +166,16 @@ fn merge_refuses_what_is_missing_doubled_or_foreign_and_writes_nothing() {
 fn facts_of_strips_become_those_of_the_picture() {
     let folder = Folder::new();
     let whole = folder.path("whole.json");
-    render(CAROUSEL, &folder.path("whole.exr"), &[&TALL[..], &["--json", whole.to_str().unwrap()]].concat()).done();
+    render(CAROUSEL, &folder.path("whole.exr"), &[&TALL[..], &["--json", whole.to_str().unwrap()]].concat())
+        .done();
     strips(&folder, CAROUSEL, 7, &TALL);
-    let documents: Vec<PathBuf> = (1..=7).rev().map(|i| folder.path(&format!("part.{i}-of-7.json"))).collect();
+    let documents: Vec<PathBuf> =
+        (1..=7).rev().map(|i| folder.path(&format!("part.{i}-of-7.json"))).collect();
     let merged = json(&merge(&["--json", "-"], &documents).done().stdout);
     let whole = json(&String::from_utf8(bytes(&whole)).unwrap());
-    for (light, expected) in merged["lights"].as_array().unwrap().iter().zip(whole["lights"].as_array().unwrap()) {
+    for (light, expected) in
+        merged["lights"].as_array().unwrap().iter().zip(whole["lights"].as_array().unwrap())
+    {
         for key in ["name", "queries", "facing_away", "outside_cone", "not_receiving", "shadowed"] {
             assert_eq!(light[key], expected[key], "{key}");
         }
@@ -206,7 +217,8 @@ fn shards_by_frames_are_the_files_of_a_single_process_and_one_document() {
         let document = |index: usize| parts.join(format!("{index}.json"));
         for index in 1..=of {
             let (shard, threads) = (format!("{index}/{of}"), (1 + index % 2).to_string());
-            let own = ["--shard", &shard, "-t", &threads, "--json", document(index).to_str().unwrap()].map(str::to_owned);
+            let own = ["--shard", &shard, "-t", &threads, "--json", document(index).to_str().unwrap()]
+                .map(str::to_owned);
             let own: Vec<&str> = own.iter().map(String::as_str).collect();
             render(CAROUSEL, &out, &[&FRAMES[..], &own].concat()).done();
         }
@@ -217,7 +229,9 @@ fn shards_by_frames_are_the_files_of_a_single_process_and_one_document() {
             facts["frames"].as_array().unwrap().iter().map(|frame| frame["frame"].as_u64().unwrap()).collect()
         };
         assert_eq!(numbers(&merged), numbers(&facts));
-        for (one, other) in merged["frames"].as_array().unwrap().iter().zip(facts["frames"].as_array().unwrap()) {
+        for (one, other) in
+            merged["frames"].as_array().unwrap().iter().zip(facts["frames"].as_array().unwrap())
+        {
             for light in 0..2 {
                 assert_eq!(one["lights"][light]["shadowed"], other["lights"][light]["shadowed"]);
             }
@@ -305,7 +319,8 @@ fn stopped(out: &Path, options: &[&str], signal: &str, recorded: usize) -> std::
     let manifest = out.with_file_name("f.manifest.json");
     let count = || {
         let text = std::fs::read_to_string(&manifest).unwrap_or_default();
-        serde_json::from_str::<Value>(&text).map_or(0, |content| content["pictures"].as_object().unwrap().len())
+        serde_json::from_str::<Value>(&text)
+            .map_or(0, |content| content["pictures"].as_object().unwrap().len())
     };
     let began = Instant::now();
     while count() < recorded && began.elapsed() < Duration::from_secs(60) {
@@ -346,7 +361,11 @@ fn a_killed_run_goes_on_and_leaves_finished_files_as_they_are() {
     let arguments = ["render", CAROUSEL, "-o", out.to_str().unwrap(), "--resume", "--json", "-"];
     let run = lightbuffer(arguments.iter().chain(&options)).done();
     assert_eq!(finished.iter().map(state).collect::<Vec<_>>(), before);
-    assert!(run.stderr.contains(&format!("{} of 60 pictures are finished", finished.len())), "{}", run.stderr);
+    assert!(
+        run.stderr.contains(&format!("{} of 60 pictures are finished", finished.len())),
+        "{}",
+        run.stderr
+    );
     assert!(frames(&part) == frames(&whole));
     assert_eq!((json(&run.stdout)["frames"].as_array().unwrap().len(), listed(&manifest).len()), (60, 60));
     // A file that is not as recorded is drawn again, and no other.
@@ -355,14 +374,18 @@ fn a_killed_run_goes_on_and_leaves_finished_files_as_they_are() {
     let run = lightbuffer(arguments.iter().chain(&options)).done();
     assert!(run.stderr.contains("58 of 60 pictures are finished"), "{}", run.stderr);
     assert!(frames(&part) == frames(&whole));
-    assert_eq!(finished.iter().filter(|name| name.as_str() < "f.07").map(state).collect::<Vec<_>>(), before[..6]);
+    assert_eq!(
+        finished.iter().filter(|name| name.as_str() < "f.07").map(state).collect::<Vec<_>>(),
+        before[..6]
+    );
 }
 
 #[test]
 fn other_settings_than_recorded_are_refused_and_a_run_without_resume_starts_anew() {
     let folder = Folder::new();
     let out = folder.path("f.##.exr");
-    let run = |options: &[&str]| render(CAROUSEL, &out, &[&["--size", "16x16", "--no-verdict"], options].concat());
+    let run =
+        |options: &[&str]| render(CAROUSEL, &out, &[&["--size", "16x16", "--no-verdict"], options].concat());
     run(&["--frames", "1-2"]).done();
     let manifest = folder.path("f.manifest.json");
     assert_eq!(listed(&manifest), ["f.01.exr", "f.02.exr"]);
@@ -390,9 +413,12 @@ fn other_settings_than_recorded_are_refused_and_a_run_without_resume_starts_anew
 fn a_single_picture_and_a_strip_are_resumed_too() {
     let folder = Folder::new();
     let options = [&TALL[..], &["--no-verdict", "--resume", "--json", "-"]].concat();
-    for (shard, manifest) in [(&[][..], "x.manifest.json"), (&["--shard", "2/3"], "x.shard-2-of-3.manifest.json")] {
+    for (shard, manifest) in
+        [(&[][..], "x.manifest.json"), (&["--shard", "2/3"], "x.shard-2-of-3.manifest.json")]
+    {
         let run = || {
-            let arguments = ["render", CAROUSEL, "-o", folder.path("x.exr").to_str().unwrap()].map(str::to_owned);
+            let arguments =
+                ["render", CAROUSEL, "-o", folder.path("x.exr").to_str().unwrap()].map(str::to_owned);
             let arguments = arguments.iter().map(String::as_str).chain(options.iter().copied());
             lightbuffer(arguments.chain(shard.iter().copied()).collect::<Vec<_>>()).done()
         };
@@ -401,5 +427,43 @@ fn a_single_picture_and_a_strip_are_resumed_too() {
         assert!(again.stderr.contains("1 of 1 pictures are finished"), "{}", again.stderr);
         assert_eq!(json(&first.stdout), json(&again.stdout));
         assert_eq!(listed(&folder.path(manifest)).len(), 1);
+    }
+}
+
+#[test]
+fn what_slurm_gives_a_job_is_kept_to() {
+    let run = |variables: &[(&str, &str)], arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lightbuffer"));
+        command.args(arguments).envs(variables.iter().copied()).current_dir(env!("CARGO_MANIFEST_DIR"));
+        let output = command.output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let folder = Folder::new();
+    let out = folder.path("x.exr");
+    let render = ["render", CAROUSEL, "-q", TALL[0], TALL[1], "--no-verdict", "-o", out.to_str().unwrap()];
+    for memory in
+        [&[("SLURM_MEM_PER_NODE", "1")][..], &[("SLURM_MEM_PER_CPU", "1"), ("SLURM_CPUS_PER_TASK", "1")]]
+    {
+        let (code, said) = run(memory, &render);
+        assert!(code == Some(2) && said.contains("--memory-limit is 1024 KiB"), "{said}");
+        assert!(names(&folder.path("")).is_empty());
+    }
+    let folder = folder.path("judged");
+    let validate = [
+        "validate",
+        CAROUSEL,
+        "-q",
+        "--size",
+        "8x8",
+        "--testers",
+        "light-buffer",
+        "-o",
+        folder.to_str().unwrap(),
+    ];
+    let all = std::thread::available_parallelism().unwrap().get();
+    for (given, threads) in [("1", 1), ("1000000", all)] {
+        assert_eq!(run(&[("SLURM_CPUS_PER_TASK", given)], &validate).0, Some(0));
+        let facts = json(&String::from_utf8(bytes(&folder.join("validate.json"))).unwrap());
+        assert_eq!(facts["threads"], threads);
     }
 }

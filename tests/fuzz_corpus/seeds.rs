@@ -134,7 +134,13 @@ fn exr() -> Vec<Seed> {
     };
     vec![
         ("one-channel", picture(3, 2, &["Z"], None)),
-        ("rows", picture(3, 2, &["Z"], Some(Window { of: ImageSize { width: 3, height: 20 }, first_row: 5 }))),
-        ("several-blocks", picture(5, 19, &["R", "G", "B", "shadow.key.a_rather_long_name_of_a_tester"], None)),
+        (
+            "rows",
+            picture(3, 2, &["Z"], Some(Window { of: ImageSize { width: 3, height: 20 }, first_row: 5 })),
+        ),
+        (
+            "several-blocks",
+            picture(5, 19, &["R", "G", "B", "shadow.key.a_rather_long_name_of_a_tester"], None),
+        ),
     ]
 }
