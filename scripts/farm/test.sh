@@ -69,26 +69,38 @@ say "64 frames and a still by a single process"
 export SLURM_CONF=$work/cluster/slurm.conf
 say "a Slurm cluster of one node: $(sinfo --version)"
 
-array=$(sbatch --parsable --chdir="$work/slurm" --array=1-8 "$farm/lightbuffer-frames.sbatch" \
-    "$scene" "$work/slurm/turn.####.exr" "$frames" "${options[@]}")
-# The first shard is killed when it has finished a picture and before it has finished all.
-manifest=$work/slurm/turn.shard-1-of-8.manifest.json
-until [ "$(finished "$manifest")" -ge 1 ] 2>/dev/null; do sleep 0.005; done
+# Submits tasks of the array of 8, and prints the job's number.
+submit() {
+    SHARDS=8 sbatch --parsable --chdir="$work/slurm" --array="$1" "$farm/lightbuffer-frames.sbatch" \
+        "$scene" "$work/slurm/turn.####.exr" "$frames" "${options[@]}"
+}
+
+# Waits until a shard has finished a picture.
+wait_for_a_picture() {
+    until [ "$(finished "$work/slurm/turn.shard-$1-of-8.manifest.json")" -ge 1 ] 2>/dev/null; do sleep 0.005; done
+}
+
+array=$(submit 1-8)
+# One task is killed when it has finished a picture and not all of them, and later run again. Another one is requeued then, as
+# when a node is wanted for something else: Slurm ends it, and starts it again by itself.
+wait_for_a_picture 1
 scancel --full --signal=KILL "${array}_1"
-for _ in $(seq 300); do
-    state=$(squeue --noheader --states=all --array --format=%T --jobs="${array}_1")
-    [ "$state" = RUNNING ] || [ "$state" = COMPLETING ] || break
-    sleep 0.1
-done
-kept=$(finished "$manifest")
-[ "$state" = FAILED ] && [ "$kept" -lt 8 ] || fail "shard 1 was not killed midway: $state with $kept of 8 pictures"
-before=$(stat --format='%n %i %y' "$work"/slurm/turn.0001.exr)
-scontrol requeue "${array}_1"
-wait_for COMPLETED "$array"
-[ "$before" = "$(stat --format='%n %i %y' "$work"/slurm/turn.0001.exr)" ] || fail "a finished picture was drawn again"
+wait_for_a_picture 5
+scontrol requeue "${array}_5"
+wait_for CANCELLED "${array}_1"
+kept=$(finished "$work/slurm/turn.shard-1-of-8.manifest.json")
+requeued=$(finished "$work/slurm/turn.shard-5-of-8.manifest.json")
+[ "$kept" -lt 8 ] && [ "$requeued" -lt 8 ] || fail "no shard was stopped midway: $kept and $requeued of 8 pictures"
+# Frames 1 and 33 are the first of those shards.
+first=("$work/slurm/turn.0001.exr" "$work/slurm/turn.0033.exr")
+before=$(stat --format='%n %i %y' "${first[@]}")
+again=$(submit 1)
+wait_for COMPLETED "$again"
+wait_for COMPLETED "${array}_2,${array}_3,${array}_4,${array}_5,${array}_6,${array}_7,${array}_8"
+[ "$before" = "$(stat --format='%n %i %y' "${first[@]}")" ] || fail "a finished picture was drawn again"
 expect_same slurm
 "$LIGHTBUFFER" merge -q --json "$work/slurm/turn.json" "$work"/slurm/turn.*shard-*-of-8.json
-say "the same by a Slurm array of 8; shard 1 was killed after $kept of 8 pictures and requeued"
+say "the same by a Slurm array of 8; shards were killed after $kept and requeued after $requeued of 8 pictures, and went on"
 
 # A program that says which process draws which shard, and becomes the program.
 cat >"$work/parallel/program" <<'PROGRAM'

@@ -75,7 +75,7 @@ pub fn render(
         is_left
     });
     record.tell(all.len(), frames.len(), painter.messages);
-    if !moments.is_empty() || frames.is_empty() {
+    if frames.is_empty() {
         record.write()?;
     }
     let outcome = record.outcome();

@@ -205,7 +205,6 @@ fn render_one(
             (lights, seconds, record.outcome())
         }
         None => {
-            record.write()?;
             let buffers = args.shadow_buffer_files(&view.scene.lights);
             let mut folders = FileSet::new();
             if let Some(folder) = &args.save_shadow_buffers {

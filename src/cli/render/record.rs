@@ -58,7 +58,7 @@ impl Record {
         }
     }
 
-    /// Writes it as it is, before the first picture.
+    /// Writes it as it is, where there is no picture to do that.
     ///
     /// # Errors
     /// If that is not possible.
