@@ -8,6 +8,7 @@
 #   make hard-cases                the 47 hard cases at 17 resolutions from 1 to 2048, by one and two threads, in debug and release
 #   make differential-fuzzing SECONDS=3600   random small scenes for so long, all testers against each other
 #   make fuzz RUNS=1200000        every loader under libFuzzer, with so many executions of each
+#   make farm                      shards, resuming and merging under Slurm (one node, as root) and GNU parallel, for real
 #   make planted-bugs              plant known bugs one by one and show which tests catch them
 #   make mutants MUTANTS=...       cargo-mutants over geometry, light buffer and verdicts; MUTANTS are more of its options
 #   make deny                      licences, sources and known holes of all dependencies
@@ -26,7 +27,7 @@ DEMO_TESTERS := bounding-volumes,light-buffer,irregular-z-buffer,shadow-buffer,e
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build-packages demo test test-scenes lint deny aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants c-library install-c deb clean-demo
+.PHONY: help packages build-packages demo test test-scenes lint deny aimed-rays hard-cases differential-fuzzing fuzz planted-bugs mutants farm c-library install-c deb clean-demo
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -95,6 +96,11 @@ differential-fuzzing: packages
 RUNS ?= 1200000
 fuzz: packages
 	RUNS=$(RUNS) bash fuzz/run.sh
+
+# Needs Debian's slurmctld, slurmd, slurm-client, munge and parallel, and root.
+farm: build-packages
+	$(CARGO) build --release
+	@bash scripts/farm/test.sh $(PROGRAM)
 
 planted-bugs: packages
 	bash tests/planted_bugs.sh

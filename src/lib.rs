@@ -95,6 +95,7 @@ pub mod report;
 pub mod scene;
 pub mod shading;
 pub mod shadow;
+mod slurm;
 pub mod verdict;
 pub mod visibility;
 

@@ -5,7 +5,7 @@ use lightbuffer::film::{
     Category, CategoryMap, ImagePlanes, ToneMap, palette, read_exr, write_exr, write_false_colour,
     write_png_rgb,
 };
-use lightbuffer::scene::ImageSize;
+use lightbuffer::scene::{ImageSize, Window};
 use proptest::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -232,6 +232,74 @@ fn a_size_that_the_file_cannot_hold_is_refused_before_memory_is_taken() {
         for y in sides {
             assert!(read_bytes(&with_corner(x, y)).is_err(), "{x} {y}");
         }
+    }
+}
+
+/// Overwrites a window in the header: its first and last column and row.
+fn with_window(bytes: &mut [u8], name: &str, window: [i32; 4]) {
+    let name = format!("{name}\0box2i\0");
+    let found = bytes.windows(name.len()).position(|window| window == name.as_bytes()).unwrap();
+    let value = window.map(i32::to_le_bytes).concat();
+    bytes[found + name.len() + 4..][..16].copy_from_slice(&value);
+}
+
+#[test]
+fn rows_of_a_larger_image_come_back_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.exr");
+    let mut image = ImagePlanes::new(ImageSize { width: 3, height: 20 });
+    image.add_channel("Z", (0..60).map(|i| i as f32).collect()).unwrap();
+    let window = Window { of: ImageSize { width: 3, height: 100 }, first_row: 48 };
+    image.set_window(window).unwrap();
+    write_exr(&path, &image).unwrap();
+    assert_eq!(read_exr(&path).unwrap(), image);
+    let output =
+        Command::new("exrheader").arg(&path).output().expect("exrheader, of Debian's package openexr");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("dataWindow (type box2i): (0 48) - (2 67)"), "{text}");
+    assert!(text.contains("displayWindow (type box2i): (0 0) - (2 99)"), "{text}");
+}
+
+#[test]
+fn hostile_windows_are_refused_in_a_line_before_memory_is_taken() {
+    let (width, height) = (SIZE.width as i32, SIZE.height as i32);
+    let read = |data: [i32; 4], display: [i32; 4]| {
+        let mut bytes = PICTURE_BYTES.clone();
+        with_window(&mut bytes, "dataWindow", data);
+        with_window(&mut bytes, "displayWindow", display);
+        read_bytes(&bytes)
+    };
+    let own = [0, 0, width - 1, height - 1];
+    assert!(read(own, own).unwrap().window().is_none());
+    // An image of its own, anywhere.
+    let elsewhere = [-7, -9, width - 8, height - 10];
+    let is_own = |result: Result<ImagePlanes, String>| match result {
+        Ok(image) => image.window().is_none(),
+        // Its blocks say where they are too, and that is not there.
+        Err(line) => !line.is_empty(),
+    };
+    assert!(is_own(read(elsewhere, elsewhere)));
+    // Display windows around it, up to the largest there are.
+    // The largest that there are; beyond, the format itself says no.
+    let far = i32::MAX / 2 - 2;
+    let of = |display| read(own, display).unwrap().window().unwrap();
+    let rows = of([0, -1000, width - 1, 1_000_000_000]);
+    assert_eq!((rows.first_row, rows.of.height, rows.of.width), (1000, 1_000_001_001, SIZE.width));
+    assert_eq!(of([0, 0, width - 1, far]).of.height, far as u32 + 1);
+    for display in [
+        [0, 0, width, height - 1],
+        [1, 0, width - 1, height - 1],
+        [-1, 0, width - 1, height - 1],
+        [0, 1, width - 1, height],
+        [0, 0, width - 1, height - 2],
+        [0, 0, far, far],
+        [i32::MIN, i32::MIN, i32::MAX, i32::MAX],
+        [0, i32::MIN, width - 1, -1],
+        [0, i32::MAX, width - 1, i32::MAX],
+        [width - 1, height - 1, 0, 0],
+        [0, 0, i32::MIN, i32::MIN],
+    ] {
+        assert!(read(own, display).is_err(), "{display:?}");
     }
 }
 

@@ -1,10 +1,12 @@
 //! Files that appear whole or not at all, and those of one run all together.
 
 mod destination;
+mod state;
 mod temporary;
 mod traces;
 
 pub use destination::{Destination, folder_of};
+pub use state::FileState;
 pub use traces::remove_for_good;
 
 use crate::error::{Error, Result};

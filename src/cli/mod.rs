@@ -13,6 +13,7 @@ mod generate;
 mod hard_cases;
 mod info;
 mod manual;
+mod merge;
 mod options;
 mod output;
 mod picture;
@@ -21,6 +22,7 @@ mod render;
 mod replay;
 mod report;
 mod reproduce;
+mod settings;
 #[cfg(unix)]
 mod signals;
 mod testers;
@@ -47,6 +49,8 @@ const EXIT_CODES: &str = "Exit codes: 0 done and right; 1 done, but an answer of
 enum Command {
     /// Render a scene to OpenEXR, shadows by any tester
     Render(render::Args),
+    /// Put together what `render --shard` wrote: the picture of its strips, one document of many
+    Merge(merge::Args),
     /// Hold every shadow tester against exact truth and against Embree, pixel by pixel
     Validate(validate::Args),
     /// Measure every shadow tester, with every parameter, against Embree at its best: speed, error and memory
@@ -101,6 +105,7 @@ pub fn run() -> ExitCode {
     let failed = if matches!(cli.command, Command::Compare(_)) { compare::CANNOT_COMPARE } else { 2 };
     let outcome = match cli.command {
         Command::Render(args) => render::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Validate(args) => validate::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Replay(args) => replay::run(&args),

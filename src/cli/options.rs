@@ -12,9 +12,11 @@ use crate::shadow::shadow_buffer::{DepthBias, FilterWidth, Lookup, ShadowBufferS
 use crate::shadow::{
     BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, VolumeThreshold,
 };
+use crate::slurm;
 use crate::visibility::FirstHitMethod;
 use clap::Args;
 use glam::Vec3;
+use std::num::NonZero;
 use std::path::PathBuf;
 
 /// What is looked at, and from where.
@@ -209,11 +211,11 @@ pub struct RunOptions {
     /// shadow-buffer looks at depths [default: by the width of a cell and of the filter, 0.022 for 400x800]
     #[arg(long, value_name = "E", value_parser = parse_bias)]
     pub shadow_buffer_bias: Option<f32>,
-    /// Threads [default: all]
+    /// Threads [default: all that the process may use, or SLURM_CPUS_PER_TASK of them]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// The most memory that the run may need beside some 64 MiB, such as 16G; what would need more is refused before
-    /// it is asked for [default: what the machine has free]
+    /// it is asked for [default: what the machine has free, or less if a control group or Slurm allows less]
     #[arg(long, value_name = "BYTES", value_parser = memory::parse)]
     pub memory_limit: Option<MemoryLimit>,
     /// Brighten PNG previews by this many stops
@@ -311,13 +313,19 @@ impl RunOptions {
     }
 }
 
-/// A pool of so many threads, or of all.
+/// A pool of so many threads. If it is not said how many, they are as many as Slurm has given the task, and at most those
+/// that the process may run at once by its control group and mask.
 ///
 /// # Errors
 /// If the system refuses the threads.
 pub fn thread_pool(threads: Option<u16>) -> Result<rayon::ThreadPool> {
+    let of_task = || {
+        let most = std::thread::available_parallelism().map_or(usize::MAX, NonZero::get);
+        // 0 is all, as rayon counts them.
+        slurm::threads().map_or(0, |threads| threads.min(most))
+    };
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.map_or(0, usize::from))
+        .num_threads(threads.map_or_else(of_task, usize::from))
         .build()
         .map_err(|e| Error::Usage(format!("--threads: {e}")))
 }

@@ -8,7 +8,7 @@ use super::testers::{TesterOptions, expect_lights};
 use super::view::{LookRules, Seen, View};
 use super::{again, output, picture};
 use crate::error::Result;
-use crate::film::{FileSet, add_exr, add_false_colour, unique_safe_names};
+use crate::film::{BLOCK_ROWS, FileSet, add_exr, add_false_colour, unique_safe_names};
 use crate::geometry::LightPosition;
 use crate::measure::bench::Machine;
 use crate::report::table::{statistics, verdict_table};
@@ -121,7 +121,7 @@ fn validate(args: &Args, entries: &[&'static TesterEntry], messages: Messages) -
     let mut judged = Vec::new();
     for light in &view.scene.lights {
         let position = light.position();
-        let queries = Queries::new(&view.scene, &seen.forest.nodes, light);
+        let queries = seen.queries(&view.scene, light, view.size.width * BLOCK_ROWS);
         let input = args.run.build_input(&view.scene, &index, position, seen.memory);
         let fitting = fitting(entries, position, &view.scene, &queries, &mut report.skipped);
         let bars = Bars::new(messages, &light.name, queries.points.len() as u64);

@@ -11,7 +11,7 @@ use crate::scene::{
     Animation, Camera, Falloff, FrameRate, Framing, ImageSize, Light, PointLight, Scene, formats, frame,
 };
 use crate::shading::{RayForest, ShadedPoint, TreeRules};
-use crate::shadow::REGISTRY;
+use crate::shadow::{Queries, REGISTRY};
 use crate::visibility::{FirstHitMethod, FirstHits, SurfacePoint, VisibleSurfaces};
 use glam::Vec3;
 
@@ -88,15 +88,6 @@ impl View {
     pub fn shot(&self) -> Shot<'_> {
         let (lights, camera) = (self.scene.lights.clone(), self.camera.clone());
         Shot { scene: &self.scene, lights, camera, size: self.size }
-    }
-
-    /// Takes so many samples a pixel along each side.
-    ///
-    /// # Errors
-    /// If the image would have more pixels than one may have.
-    pub fn subdivide(&mut self, samples: u32) -> Result<()> {
-        self.size = subdivided(self.size, samples)?;
-        Ok(())
     }
 
     /// As [`Shot::look`], at rest.
@@ -219,6 +210,14 @@ pub struct Seen {
     pub forest: RayForest,
     /// What is left for testers.
     pub memory: MemoryLimit,
+}
+
+impl Seen {
+    /// The queries of a light, in runs of so many pixels.
+    pub fn queries(&self, scene: &Scene, light: &Light, pixels: u32) -> Queries {
+        let RayForest { nodes, levels, .. } = &self.forest;
+        Queries::new(scene, nodes, light).in_runs(nodes, levels, pixels)
+    }
 }
 
 fn choose_camera(cameras: &[Camera], name: Option<&str>) -> Result<Camera> {

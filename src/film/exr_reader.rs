@@ -3,7 +3,7 @@
 use super::ImagePlanes;
 use super::open_exr::ATTRIBUTE_PREFIX;
 use crate::error::{Error, Place, Result};
-use crate::scene::{FrameRate, ImageSize};
+use crate::scene::{FrameRate, ImageSize, Window};
 use exr::block::UncompressedBlock;
 use exr::block::reader::{ChunksReader, Reader};
 use exr::math::Vec2;
@@ -18,7 +18,8 @@ use std::path::Path;
 /// The most bytes that one byte of deflate can become; a file that declares more than this has to be wrong.
 const DEFLATE_LIMIT: u64 = 1032;
 
-/// Reads an OpenEXR file of one part: scan lines of 32-bit floats under no compression, RLE or ZIP.
+/// Reads an OpenEXR file of one part: scan lines of 32-bit floats under no compression, RLE or ZIP. Its data window is
+/// its display window, or whole lines of that, and then the image knows its [`Window`].
 ///
 /// Channels and our own attributes come sorted by name; other attributes are left out. Memory stays within
 /// what the file's length can honestly expand to.
@@ -54,6 +55,7 @@ fn decode(reader: impl Read + Seek, length: u64) -> exr::error::Result<ImagePlan
         return Err(unsupported("more than one part"));
     };
     let size = check_header(header, length)?;
+    let window = check_windows(header, size)?;
     let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
     let attributes = own_attributes(header);
     let rate = header.own_attributes.frames_per_second;
@@ -61,6 +63,7 @@ fn decode(reader: impl Read + Seek, length: u64) -> exr::error::Result<ImagePlan
 
     let wrong = |error: Error| invalid(error.to_string());
     let mut image = ImagePlanes::new(size);
+    window.map_or(Ok(()), |window| image.set_window(window)).map_err(wrong)?;
     for (name, samples) in names.into_iter().zip(planes) {
         image.add_channel(name, samples).map_err(wrong)?;
     }
@@ -102,6 +105,22 @@ fn check_header(header: &Header, length: u64) -> exr::error::Result<ImageSize> {
             channels.len()
         ))),
     }
+}
+
+/// Where the lines belong in the display window, unless they are all of it. Both windows may begin anywhere; nothing of
+/// the size of the display window is allocated.
+fn check_windows(header: &Header, size: ImageSize) -> exr::error::Result<Option<Window>> {
+    let outside = || unsupported("data window that is not whole lines of the display window");
+    let display = header.shared_attributes.display_window;
+    let Vec2(left, top) = header.own_attributes.layer_position;
+    let side = |pixels: usize| u32::try_from(pixels).map_err(|_| invalid("display window"));
+    let of = ImageSize { width: side(display.size.width())?, height: side(display.size.height())? };
+    let first_row = u32::try_from(i64::from(top) - i64::from(display.position.y())).map_err(|_| outside())?;
+    let fits = u64::from(first_row) + u64::from(size.height) <= u64::from(of.height);
+    if left != display.position.x() || of.width != size.width || !fits {
+        return Err(outside());
+    }
+    Ok((of != size).then_some(Window { of, first_row }))
 }
 
 /// The samples of every channel. Lines must come from top to bottom, each once; planes grow as they come, so

@@ -31,7 +31,7 @@ pub use false_colour::{Category, CategoryMap, add_false_colour, write_false_colo
 pub use markers::{Marking, RARE_PIXELS};
 pub use metrics::ImageMetrics;
 pub use names::{safe_light_name, unique_safe_names};
-pub use open_exr::{add_exr, write_exr};
+pub use open_exr::{BLOCK_ROWS, add_exr, write_exr};
 pub use planes::{ImagePlanes, Plane};
 pub use png::{add_png_rgb, write_png_rgb};
 pub use subdivision::subdivided;

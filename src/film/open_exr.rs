@@ -3,12 +3,14 @@
 use super::attribute_order::sort_attributes;
 use super::{FileSet, ImagePlanes, Plane};
 use crate::error::Result;
+use crate::scene::Window;
 use exr::block::writer::ChunksWriter;
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::math::Vec2;
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{
-    AttributeValue, ChannelDescription, ChannelList, Chromaticities, LineOrder, SampleType, Text,
+    AttributeValue, ChannelDescription, ChannelList, Chromaticities, IntegerBounds, LineOrder, SampleType,
+    Text,
 };
 use exr::meta::header::{Header, LayerAttributes};
 use exr::prelude::Compression;
@@ -20,6 +22,9 @@ use std::path::Path;
 /// What our attributes are called in a file, before their own name. No standard attribute has a colon, so
 /// none can ever be meant by two.
 pub(super) const ATTRIBUTE_PREFIX: &str = "lightbuffer:";
+
+/// Rows that are compressed together: files of parts that begin at multiples of it hold the same blocks as that of the whole.
+pub const BLOCK_ROWS: u32 = 16;
 
 /// Blocks of 16 lines that each thread compresses before they are written out; bounds the memory for what
 /// is compressed and not yet written.
@@ -37,7 +42,7 @@ const REC_709: Chromaticities = Chromaticities {
 /// bit as given.
 ///
 /// Attributes are strings named `lightbuffer:NAME`; `software` names this version, and the chromaticities
-/// are those of Rec. 709. Channels and attributes are sorted by name, as the format wants. The bytes of the
+/// are those of Rec. 709. Rows of a larger image are the data window, and that image is the display window. Channels and attributes are sorted by name, as the format wants. The bytes of the
 /// file depend on the image alone. Compression uses the rayon pool of the caller.
 ///
 /// # Errors
@@ -77,6 +82,12 @@ fn header(image: &ImagePlanes, planes: &[&Plane]) -> Header {
         BlockDescription::ScanLines,
         LineOrder::Increasing,
     );
+    if let Some(Window { of, first_row }) = image.window() {
+        // `set_window` takes no more rows than fit.
+        header.own_attributes.layer_position = Vec2(0, first_row as i32);
+        header.shared_attributes.display_window =
+            IntegerBounds::from_dimensions(Vec2(of.width as usize, of.height as usize));
+    }
     header.shared_attributes.chromaticities = Some(REC_709);
     header.own_attributes = LayerAttributes {
         software_name: Some(text(concat!("lightbuffer ", env!("CARGO_PKG_VERSION")))),
@@ -92,6 +103,7 @@ fn header(image: &ImagePlanes, planes: &[&Plane]) -> Header {
             // A rate's terms have 31 bits.
             (numerator as i32, denominator)
         }),
+        layer_position: header.own_attributes.layer_position,
         ..LayerAttributes::default()
     };
     header

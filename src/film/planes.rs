@@ -1,7 +1,7 @@
 //! Named planes of floats, all of one size: an image before it is a file.
 
 use crate::error::{Error, Result};
-use crate::scene::{FrameRate, ImageSize};
+use crate::scene::{FrameRate, ImageSize, Window};
 use std::collections::HashMap;
 
 /// The longest name, in bytes, that OpenEXR gives to a channel or an attribute.
@@ -16,6 +16,9 @@ pub struct Plane {
     pub samples: Vec<f32>,
 }
 
+/// The last row that a window of an OpenEXR file may have, and one more.
+const MOST_ROWS: u32 = i32::MAX as u32;
+
 /// An image as planes of one size, with text attributes. Names are unique among channels and among
 /// attributes.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +28,8 @@ pub struct ImagePlanes {
     attributes: Vec<(String, String)>,
     /// Of the animation that it is a frame of.
     rate: Option<FrameRate>,
+    /// Where its rows belong, if it is a part of a larger image.
+    window: Option<Window>,
     /// Places of the channels by their names: an image of 10,000 lights has 30,000 of them.
     places: HashMap<String, usize>,
 }
@@ -32,7 +37,8 @@ pub struct ImagePlanes {
 impl ImagePlanes {
     /// An image without channels.
     pub fn new(size: ImageSize) -> ImagePlanes {
-        ImagePlanes { size, channels: Vec::new(), attributes: Vec::new(), rate: None, places: HashMap::new() }
+        let (channels, attributes, places) = (Vec::new(), Vec::new(), HashMap::new());
+        ImagePlanes { size, channels, attributes, rate: None, window: None, places }
     }
 
     /// Adds a channel.
@@ -83,6 +89,29 @@ impl ImagePlanes {
         self.rate
     }
 
+    /// Says which rows of a larger image these are: the data window within the display window of an OpenEXR file.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if they are not rows of such an image.
+    pub fn set_window(&mut self, window: Window) -> Result<()> {
+        let Window { of, first_row } = window;
+        let ImageSize { width, height } = self.size;
+        let fits = first_row.checked_add(height).is_some_and(|end| end <= of.height.min(MOST_ROWS));
+        if width != of.width || !fits {
+            return Err(Error::Usage(format!(
+                "{width}x{height} pixels from row {first_row}: no rows of an image of {}x{}",
+                of.width, of.height
+            )));
+        }
+        self.window = Some(window);
+        Ok(())
+    }
+
+    /// Which rows of a larger image these are, if they are not an image of their own.
+    pub fn window(&self) -> Option<Window> {
+        self.window
+    }
+
     /// Width and height of every channel.
     pub fn size(&self) -> ImageSize {
         self.size
@@ -96,6 +125,16 @@ impl ImagePlanes {
     /// The samples of a channel, row by row from the top left.
     pub fn channel(&self, name: &str) -> Option<&[f32]> {
         self.places.get(name).map(|&place| self.channels[place].samples.as_slice())
+    }
+
+    /// Gives the samples of a channel away, and the channel with them.
+    pub fn take_channel(&mut self, name: &str) -> Option<Vec<f32>> {
+        let place = self.places.remove(name)?;
+        let plane = self.channels.swap_remove(place);
+        if let Some(moved) = self.channels.get(place) {
+            self.places.insert(moved.name.clone(), place);
+        }
+        Some(plane.samples)
     }
 
     /// All attributes as name and text, in the order they were added.
@@ -137,6 +176,13 @@ mod tests {
         assert_eq!(errors[0], "two channels named `Z`");
         assert_eq!(errors[1], "channel `R`: 5 samples for 6 pixels");
         assert_eq!(errors[4], "two attributes named `version`");
+        let of = ImageSize { width: 2, height: 8 };
+        image.set_window(Window { of, first_row: 5 }).unwrap();
+        for (width, first_row) in [(2, 6), (2, u32::MAX), (3, 0)] {
+            let of = ImageSize { width, ..of };
+            image.set_window(Window { of, first_row }).unwrap_err();
+        }
+        assert_eq!(image.window(), Some(Window { of, first_row: 5 }));
         assert!(errors.iter().all(|line| !line.contains('\n')), "{errors:?}");
         assert_eq!((image.channels().len(), image.attribute("version")), (1, Some("1")));
     }

@@ -13,5 +13,5 @@ mod sample;
 
 pub use answer_view::answer_view;
 pub use repeated::Repeated;
-pub use run::{Answers, Question, Timed, answer, soft_light, timed};
+pub use run::{Answers, Question, Timed, answer, answer_in_runs, soft_light, timed};
 pub use sample::Errors;

@@ -69,15 +69,28 @@ pub fn answer(
     question: Question,
     advance: &(dyn Fn(u64) + Sync),
 ) -> Result<Answers> {
+    answer_in_runs(tester, points, &[], question, advance)
+}
+
+/// The same, where no chunk goes past the places at which runs begin, in ascending order.
+///
+/// # Errors
+/// The first error of the tester.
+pub fn answer_in_runs(
+    tester: &dyn ShadowTester,
+    points: &[SurfacePoint],
+    runs: &[usize],
+    question: Question,
+    advance: &(dyn Fn(u64) + Sync),
+) -> Result<Answers> {
     let mut occluded = vec![false; points.len()];
     let run = timed(|| {
         let at_once = match tester.batching() {
             Batching::Whole => Some(tester.occluded(points, &mut occluded)?),
             Batching::Chunks => None,
         };
-        points
-            .par_chunks(CHUNK)
-            .zip(occluded.par_chunks_mut(CHUNK))
+        chunks(points, &mut occluded, runs)
+            .into_par_iter()
             .enumerate()
             .map(|(chunk, (points, answers))| {
                 let mut counters = match at_once {
@@ -104,6 +117,24 @@ pub fn answer(
         }
     }
     Ok(Answers { occluded, crossings, counters, seconds: run.seconds })
+}
+
+/// Points with room for their answers, run by run in chunks.
+fn chunks<'a>(
+    points: &'a [SurfacePoint],
+    answers: &'a mut [bool],
+    runs: &[usize],
+) -> Vec<(&'a [SurfacePoint], &'a mut [bool])> {
+    let ends = runs.iter().copied().chain([points.len()]);
+    let (mut points, mut answers, mut begin) = (points, answers, 0);
+    let mut all = Vec::new();
+    for end in ends {
+        let (run, rest) = points.split_at(end - begin);
+        let (run_answers, rest_answers) = answers.split_at_mut(end - begin);
+        all.extend(run.chunks(CHUNK).zip(run_answers.chunks_mut(CHUNK)));
+        (points, answers, begin) = (rest, rest_answers, end);
+    }
+    all
 }
 
 /// The share of the light that arrives at each point past opaque and through transparent surfaces, by a tester

@@ -32,6 +32,15 @@ impl ImageSize {
     }
 }
 
+/// Whole rows of an image that are an image of their own: the part of it that one process draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// The whole image.
+    pub of: ImageSize,
+    /// Its row, from 0 at the top, that is the first of the part.
+    pub first_row: u32,
+}
+
 /// A pinhole camera. Rays begin at `origin`; pixel (0, 0) is the top left corner of the image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
@@ -49,6 +58,8 @@ pub struct Camera {
     pub tan_half_height: f64,
     /// The size of the image, if the scene file says one. Pixels are square whatever it is.
     pub size: Option<ImageSize>,
+    /// Which rows the image holds, if it is a part of a larger one.
+    pub window: Option<Window>,
 }
 
 impl Camera {
@@ -73,6 +84,7 @@ impl Camera {
             up: right.cross(forward).as_vec3(),
             tan_half_height: libm::tan(vertical_degrees.to_radians() * 0.5),
             size: None,
+            window: None,
         }
     }
 
@@ -98,38 +110,62 @@ impl Camera {
     }
 
     /// Offsets of the image plane at distance 1, in units of `right` and `up`: the centre of pixel
-    /// (0, 0) and the step to the next column and row (the latter negative).
+    /// (0, 0) and the step to the next column and row (the latter negative). Of a camera with a window, `size` is that
+    /// of the part.
     pub fn raster(&self, size: ImageSize) -> Raster {
+        let (size, first_row) = self.window.map_or((size, 0), |window| (window.of, window.first_row));
         let half_height = self.tan_half_height;
         let half_width = half_height * f64::from(size.width) / f64::from(size.height);
         let step_x = 2.0 * half_width / f64::from(size.width);
         let step_y = -2.0 * half_height / f64::from(size.height);
-        Raster { x0: -half_width + 0.5 * step_x, y0: half_height + 0.5 * step_y, step_x, step_y }
+        let (x0, y0) = (-half_width + 0.5 * step_x, half_height + 0.5 * step_y);
+        Raster { x0, y0, step_x, step_y, first_row }
     }
 
     /// The direction of the ray through the centre of pixel (x, y): the one routine that makes camera
     /// rays. It is computed in f64 without fused operations and rounded once to f32; from then on these
     /// bits are the ray, exactly (not normalised).
     pub fn direction(&self, raster: &Raster, x: u32, y: u32) -> Vec3 {
-        let (sx, sy) = (raster.x0 + f64::from(x) * raster.step_x, raster.y0 + f64::from(y) * raster.step_y);
+        // The number of the row in the whole image goes into the one product, so that a part has the whole's bits.
+        let row = y + raster.first_row;
+        let (sx, sy) = (raster.x0 + f64::from(x) * raster.step_x, raster.y0 + f64::from(row) * raster.step_y);
         let (f, r, u) = (self.forward.as_dvec3(), self.right.as_dvec3(), self.up.as_dvec3());
         DVec3::new(f.x + (sx * r.x + sy * u.x), f.y + (sx * r.y + sy * u.y), f.z + (sx * r.z + sy * u.z))
             .as_vec3()
     }
 }
 
-/// The grid of pixel centres on the image plane at distance 1 from the pinhole.
+/// The grid of pixel centres on the image plane at distance 1 from the pinhole. `x0` and `y0` are the first pixel of the
+/// whole image, of which the rows from `first_row` on are looked at.
 #[derive(Debug, Clone, Copy)]
 pub struct Raster {
     pub(crate) x0: f64,
     pub(crate) y0: f64,
     pub(crate) step_x: f64,
     pub(crate) step_y: f64,
+    pub(crate) first_row: u32,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_rows_of_a_window_have_the_rays_of_the_whole_in_bits() {
+        let target = Vec3::new(0.3, -0.7, -2.1);
+        let camera = Camera::look_at("c", Vec3::new(0.1, 0.2, 0.3), target, Vec3::Y, 37.3);
+        let of = ImageSize { width: 31, height: 97 };
+        let whole = camera.raster(of);
+        for first_row in [0, 16, 48, 96] {
+            let part = Camera { window: Some(Window { of, first_row }), ..camera.clone() };
+            let raster = part.raster(ImageSize { width: 31, height: of.height - first_row });
+            for (x, y) in (0..31).flat_map(|x| (0..of.height - first_row).map(move |y| (x, y))) {
+                let bits = |direction: Vec3| direction.to_array().map(f32::to_bits);
+                let expected = camera.direction(&whole, x, y + first_row);
+                assert_eq!(bits(part.direction(&raster, x, y)), bits(expected), "{x} {y} from {first_row}");
+            }
+        }
+    }
 
     #[test]
     fn corner_rays_go_from_corner_to_corner() {

@@ -22,7 +22,7 @@ mod texture;
 pub use alpha::{AlphaMask, MaskedTriangle, TextureCoordinates, Wrap};
 pub use animation::{Animation, FrameRate};
 pub use builder::{Dropped, ObjectInput, SceneBuilder, SmoothNormals};
-pub use camera::{Camera, ImageSize, Raster};
+pub use camera::{Camera, ImageSize, Raster, Window};
 pub use framing::{Framing, frame};
 pub use light::{Cone, DirectionalLight, Emitter, Falloff, Light, PointLight, SpotLight};
 pub use material::{Coverage, Material, Transmission};

@@ -24,6 +24,9 @@ pub struct Queries {
     pub outside_cone: Vec<u32>,
     /// Points on objects that receive no shadows and would otherwise be queries: lit without one.
     pub not_receiving: Vec<u32>,
+    /// Places in `points` where a run begins, but for the first: queries of two runs are never asked together. None
+    /// unless [`in_runs`](Queries::in_runs) says so.
+    pub runs: Vec<usize>,
 }
 
 impl Queries {
@@ -57,6 +60,22 @@ impl Queries {
             }
         }
         queries
+    }
+
+    /// The same queries, of which those of a level of the ray trees and of so many pixels one after the other are a run.
+    ///
+    /// Embree traverses the rays of a packet together, and what it does at an edge may depend on who else is in there. So
+    /// that no answer depends on which rows of a picture a process draws, packets end where blocks of rows do.
+    ///
+    /// `visible` is what they were made of, and `levels` has the first of its points of each level.
+    pub fn in_runs(self, visible: &VisibleSurfaces, levels: &[u32], pixels: u32) -> Queries {
+        let run = |&node: &u32| {
+            let level = levels.partition_point(|&first| first <= node);
+            (level, visible.pixels[node as usize] / pixels.max(1))
+        };
+        let runs: Vec<_> = self.nodes.iter().map(run).collect();
+        let runs = (1..runs.len()).filter(|&query| runs[query] != runs[query - 1]).collect();
+        Queries { runs, ..self }
     }
 
     /// The share of the light that arrives at each of the `points` of the image, where it faces the light or lets

@@ -2,7 +2,7 @@
 
 use super::{Cause, CauseCounts, TesterCounts, VerdictCounts, WrongAnswer};
 use crate::error::{Error, Result};
-use crate::measure::{Question, Timed, answer, soft_light, timed};
+use crate::measure::{Question, Timed, answer_in_runs, soft_light, timed};
 use crate::shadow::exact::{Arbiter, Contact, Occlusion};
 use crate::shadow::{
     Basis, BuildInput, Counters, Crossings, Fresh, Origin, Queries, ShadowTester, TesterEntry, TesterSource,
@@ -294,7 +294,8 @@ fn ask<'a>(
     let supplied = built.value?;
     let (tester, origin) = (supplied.tester, supplied.origin);
     let question = Question::of(input.scene);
-    let answers = answer(tester.as_ref(), &queries.points, question, &|n| progress.advance(n))?;
+    let advance = |n| progress.advance(n);
+    let answers = answer_in_runs(tester.as_ref(), &queries.points, &queries.runs, question, &advance)?;
     let soft_light = soft_light(tester.as_ref(), input.scene, &queries.points, &answers)?;
     let run = TesterRun {
         name: entry.name,

@@ -2,7 +2,7 @@
 
 use super::TesterCounts;
 use crate::error::Result;
-use crate::measure::{Question, answer};
+use crate::measure::{Question, answer_in_runs};
 use crate::shadow::{BuildInput, EmbreeSettings, Queries, TesterEntry};
 use std::ops::AddAssign;
 
@@ -44,7 +44,8 @@ pub fn sweep_epsilon(
     let with = |&epsilon: &f32| {
         let embree = EmbreeSettings { epsilon, ..input.embree };
         let tester = (entry.build)(&BuildInput { embree, ..*input })?;
-        let answers = answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| {})?;
+        let (points, runs) = (&queries.points, &queries.runs);
+        let answers = answer_in_runs(tester.as_ref(), points, runs, Question::Occlusion, &|_| {})?;
         let counts = TesterCounts::new(&answers.occluded, truth, 0);
         let (false_shadow, false_light) = (counts.false_shadow, counts.false_light);
         Ok(EpsilonCounts { tester: entry.name, epsilon, false_shadow, false_light })

@@ -32,6 +32,7 @@ mod reproduce;
 mod reproduce_t_buffer;
 mod same_scene;
 mod shadow_buffer;
+mod shards;
 #[cfg(unix)]
 mod signals;
 #[cfg(unix)]

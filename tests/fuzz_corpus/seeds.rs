@@ -4,7 +4,7 @@ use crate::checks::{self, Desk, Outcome, SEPARATOR, Target};
 use crate::{fixtures, gltf_parts, ply_writer, samples};
 use image::{DynamicImage, ImageFormat};
 use lightbuffer::film::{ImagePlanes, write_exr};
-use lightbuffer::scene::ImageSize;
+use lightbuffer::scene::{ImageSize, Window};
 use serde_json::json;
 use std::io::Cursor;
 use std::path::Path;
@@ -120,8 +120,9 @@ fn pictures() -> Vec<Seed> {
 
 fn exr() -> Vec<Seed> {
     let desk = Desk::new();
-    let picture = |width: u32, height: u32, names: &[&str]| {
+    let picture = |width: u32, height: u32, names: &[&str], window: Option<Window>| {
         let mut image = ImagePlanes::new(ImageSize { width, height });
+        window.map_or(Ok(()), |window| image.set_window(window)).expect("rows of a larger image");
         for (number, name) in names.iter().enumerate() {
             let samples = (0..width * height).map(|i| (i / 3) as f32 * 0.5 + number as f32).collect();
             image.add_channel(*name, samples).expect("a new name");
@@ -132,7 +133,14 @@ fn exr() -> Vec<Seed> {
         std::fs::read(path).expect("what was written")
     };
     vec![
-        ("one-channel", picture(3, 2, &["Z"])),
-        ("several-blocks", picture(5, 19, &["R", "G", "B", "shadow.key.a_rather_long_name_of_a_tester"])),
+        ("one-channel", picture(3, 2, &["Z"], None)),
+        (
+            "rows",
+            picture(3, 2, &["Z"], Some(Window { of: ImageSize { width: 3, height: 20 }, first_row: 5 })),
+        ),
+        (
+            "several-blocks",
+            picture(5, 19, &["R", "G", "B", "shadow.key.a_rather_long_name_of_a_tester"], None),
+        ),
     ]
 }

@@ -15,11 +15,19 @@ pub fn check(desk: &mut Desk, input: &[u8]) -> Outcome {
     };
     let pixels = image.size().pixels();
     assert!(pixels > 0 && !image.channels().is_empty());
+    if let Some(window) = image.window() {
+        let end = u64::from(window.first_row) + u64::from(image.size().height);
+        assert!(window.of != image.size() && window.of.width == image.size().width);
+        assert!(end <= u64::from(window.of.height));
+    }
     assert!(image.channels().iter().all(|plane| plane.samples.len() == pixels));
     if pixels * image.channels().len() <= FEW_SAMPLES {
         let again = desk.path("again.exr");
         match write_exr(&again, &image) {
-            Ok(()) => assert_eq!(bits(&read_exr(&again).expect("what we wrote")), bits(&image)),
+            Ok(()) => {
+                let back = read_exr(&again).expect("what we wrote");
+                assert_eq!((bits(&back), back.window()), (bits(&image), image.window()));
+            }
             Err(error) => _ = refusal(&again, &error),
         }
     }

@@ -3,19 +3,27 @@
 use super::super::output;
 use super::super::picture::{self, Lighting};
 use super::super::progress::{Bars, Messages, print_error};
-use super::super::view::{Seen, Shot};
+use super::super::settings::Settings;
+use super::super::view::{self, Seen, Shot};
 use super::facts::{LightFacts, TesterFacts};
+use super::shard::{Rows, Shard};
 use super::{Args, preview};
 use crate::error::Result;
-use crate::film::{FileSet, add_exr, subdivided, unique_safe_names};
+use crate::film::{BLOCK_ROWS, FileSet, add_exr, subdivided, unique_safe_names};
 use crate::memory::MemoryLimit;
 use crate::report::table::statistics;
 use crate::report::validation::EmbreeFacts;
-use crate::scene::{FrameRate, Light};
+use crate::scene::{Camera, FrameRate, ImageSize, Light, Scene, Window};
 use crate::shadow::shadow_buffer::BufferFile;
 use crate::shadow::{Basis, BuildInput, Queries, SceneIndex, TesterEntry, TesterSource};
 use crate::verdict::{LightVerdict, TesterRun, judge_from, run_tester_from};
 use std::path::{Path, PathBuf};
+
+/// The attribute of a part that says which it is. The whole has none of it.
+pub const SHARD_ATTRIBUTE: &str = "shard";
+
+/// The attribute of a part with what all parts have in common. The whole has none of it.
+pub const SETTINGS_ATTRIBUTE: &str = "shardSettings";
 
 /// What all pictures of a run share.
 pub struct Painter<'r> {
@@ -26,6 +34,10 @@ pub struct Painter<'r> {
     pub entries: Vec<&'static TesterEntry>,
     pub embree: Option<EmbreeFacts>,
     pub messages: Messages,
+    /// What parts of one result have in common.
+    pub settings: Settings,
+    /// Which part this run draws, if that is a strip of each picture.
+    pub tile: Option<Shard>,
 }
 
 /// Which frame of how many a second a picture is.
@@ -42,6 +54,30 @@ pub struct Drawn {
 }
 
 impl Painter<'_> {
+    /// The rows that this run draws of a picture of this size.
+    pub fn rows(&self, size: ImageSize) -> Rows {
+        self.tile.map_or(Rows { first: 0, count: size.height }, |tile| tile.rows(size.height))
+    }
+
+    /// What is drawn of a picture of this size: its rows, with so many samples a pixel as were asked for. There must be
+    /// such rows.
+    ///
+    /// # Errors
+    /// If the whole picture would have more samples than one may have.
+    pub fn shot<'s>(
+        &self,
+        scene: &'s Scene,
+        lights: Vec<Light>,
+        camera: Camera,
+        size: ImageSize,
+    ) -> Result<Shot<'s>> {
+        let (samples, rows) = (self.args.subdivide, self.rows(size));
+        let of = view::subdivided(size, samples)?;
+        let window = self.tile.map(|_| Window { of, first_row: rows.first * samples });
+        let size = ImageSize { height: rows.count * samples, ..of };
+        Ok(Shot { scene, lights, camera: Camera { window, ..camera }, size })
+    }
+
     /// Finds what the camera sees and which of it is in shadow, by testers of a source. `buffers` are the files for
     /// shadow-buffers, by light; none are used where there are fewer of them.
     ///
@@ -59,7 +95,8 @@ impl Painter<'_> {
         let seen = shot.look(args.switches.look(args.trees.depth), limit)?;
         let mut lights = Vec::new();
         for (number, light) in shot.lights.iter().enumerate() {
-            let queries = Queries::new(shot.scene, &seen.forest.nodes, light);
+            let block = shot.size.width * BLOCK_ROWS * args.subdivide;
+            let queries = seen.queries(shot.scene, light, block);
             let shadow_buffer_file = match buffers.get(number).and_then(Option::as_deref) {
                 None => BufferFile::Unused,
                 Some(file) if args.load_shadow_buffers.is_some() => BufferFile::Load(file),
@@ -122,7 +159,14 @@ impl Painter<'_> {
         if let Some(FrameOf { number, rate }) = frame {
             picture::add_frame(&mut planes, number, rate)?;
         }
-        let planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
+        let mut planes = if args.subdivide > 1 { subdivided(&planes, args.subdivide)? } else { planes };
+        if let (Some(tile), Some(window)) = (self.tile, shot.camera.window) {
+            let side = |samples: u32| samples / args.subdivide;
+            let of = ImageSize { width: side(window.of.width), height: side(window.of.height) };
+            planes.set_window(Window { of, first_row: side(window.first_row) })?;
+            planes.add_attribute(SHARD_ATTRIBUTE, tile.to_string())?;
+            planes.add_attribute(SETTINGS_ATTRIBUTE, self.settings.to_json()?)?;
+        }
         add_exr(files, path, &planes)?;
         output::add_preview(files, &preview(path), &planes, shot.scene.background, args.run.exposure)
     }

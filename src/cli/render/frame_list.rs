@@ -13,6 +13,19 @@ const LAST_FRAME: u32 = 9_999_999;
 pub struct FrameList(Vec<u32>);
 
 impl FrameList {
+    /// The runs and single frames that it is made of, as [`parse`](FrameList::parse) reads them.
+    pub fn text(&self) -> String {
+        let mut runs: Vec<(u32, u32)> = Vec::new();
+        for &frame in &self.0 {
+            match runs.last_mut() {
+                Some((_, last)) if *last + 1 == frame => *last = frame,
+                _ => runs.push((frame, frame)),
+            }
+        }
+        let run = |(first, last)| if first == last { format!("{first}") } else { format!("{first}-{last}") };
+        runs.into_iter().map(run).collect::<Vec<_>>().join(",")
+    }
+
     /// The numbers.
     pub fn numbers(&self) -> &[u32] {
         &self.0
@@ -116,7 +129,10 @@ mod tests {
         #[test]
         fn any_text_is_a_list_or_a_line(text in "[-0-9,: a]{0,20}") {
             match FrameList::parse(&text) {
-                Ok(list) => prop_assert!(list.0.windows(2).all(|pair| pair[0] < pair[1]) && !list.0.is_empty()),
+                Ok(list) => {
+                    prop_assert!(list.0.windows(2).all(|pair| pair[0] < pair[1]) && !list.0.is_empty());
+                    prop_assert_eq!(FrameList::parse(&list.text()), Ok(list));
+                }
                 Err(why) => prop_assert_eq!(why.lines().count(), 1),
             }
         }

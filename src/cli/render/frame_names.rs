@@ -39,6 +39,13 @@ impl FrameNames {
         Ok(FrameNames { folder, before: name[..first].into(), digits, after: after.into() })
     }
 
+    /// The same names with something before the extension.
+    pub fn with_suffix(self, suffix: &str) -> FrameNames {
+        let (stem, extension) = self.after.rsplit_once('.').unwrap_or((&self.after, ""));
+        let after = format!("{stem}{suffix}.{extension}");
+        FrameNames { after, ..self }
+    }
+
     /// The name of a frame. Different frames have different names, also where a number has more digits.
     pub fn path(&self, frame: u32) -> PathBuf {
         let FrameNames { folder, before, digits, after } = self;
@@ -63,6 +70,10 @@ mod tests {
             ("take#2/x.exr", 5, "take#2/x.0005.exr"),
         ] {
             assert_eq!(FrameNames::of(Path::new(pattern)).unwrap().path(frame), Path::new(name));
+        }
+        for (pattern, name) in [("shot.exr", "shot.0007.part.exr"), ("##_x.exr", "07_x.part.exr")] {
+            let names = FrameNames::of(Path::new(pattern)).unwrap().with_suffix(".part");
+            assert_eq!(names.path(7), Path::new(name));
         }
         let error = FrameNames::of(Path::new("a##_##.exr")).unwrap_err();
         assert!(error.contains("several in `a##_##.exr`"), "{error}");

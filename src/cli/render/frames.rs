@@ -4,14 +4,16 @@
 //! object moves share one scene and one [`Keeper`]. Which frames there are is said at one place, by the moments that
 //! [`render`] begins with: leaving some out leaves the pictures of the others as they are.
 
+use super::super::Outcome;
 use super::super::options::ViewOptions;
 use super::super::progress::Messages;
-use super::super::view::{Shot, View, aim, subdivided};
-use super::super::{Outcome, output};
+use super::super::view::{View, aim};
 use super::drawing::{FrameOf, Painter};
-use super::facts::{FrameFacts, FrameLightFacts, FramesFacts};
-use super::frame_list::FrameList;
+use super::facts::{Common, FrameFacts, FrameLightFacts, FramesFacts, ShardFacts};
 use super::frame_names::FrameNames;
+use super::record::Record;
+use super::task::Task;
+use super::write_facts;
 use crate::error::{Error, Place, Result};
 use crate::film::FileSet;
 use crate::geometry::LightPosition;
@@ -30,21 +32,31 @@ struct Reel<'r> {
     names: &'r FrameNames,
     /// What is left beside the scene at rest.
     limit: MemoryLimit,
-    facts: Option<FramesFacts>,
+    record: Record,
+    drawn: Vec<FrameFacts>,
     outcome: Outcome,
 }
 
-/// Draws and writes frames.
+/// Draws and writes frames, but for those that the record knows to be finished.
 ///
 /// # Errors
 /// Before any of them if something is nowhere at one of their times; whatever drawing or writing one of them reports, and
 /// those before it stay.
-pub fn render(painter: &Painter, view: View, frames: &FrameList, names: &FrameNames) -> Result<Outcome> {
+pub fn render(
+    painter: &Painter,
+    view: View,
+    task: &Task,
+    frames: &[u32],
+    names: &FrameNames,
+    mut record: Record,
+) -> Result<Outcome> {
     let args = painter.args;
+    let size = view.size;
     let animation = Animation { rest: view.scene, motion: view.motion, rate: view.rate };
     let rate = args.fps.or(animation.rate).unwrap_or_default();
+    let mut facts = FramesFacts::new(Common::new(painter, &animation.rest.name, size), rate.to_string());
     let moment = |&frame: &u32| Moment { frame, time: rate.seconds(f64::from(frame)) };
-    let moments: Vec<Moment> = frames.numbers().iter().map(moment).collect();
+    let mut moments: Vec<Moment> = frames.iter().map(moment).collect();
     for moment in &moments {
         animation.check(moment.time).map_err(|error| in_frame(moment.frame, &error))?;
     }
@@ -55,16 +67,33 @@ pub fn render(painter: &Painter, view: View, frames: &FrameList, names: &FrameNa
         true => args.run.memory_limit(),
         false => args.run.memory_limit().beside("the scene at rest", bytes(&animation.rest))?,
     };
+    let mut all: Vec<FrameFacts> = Vec::new();
+    moments.retain(|moment| {
+        let finished: Option<FrameFacts> = record.finished(&names.path(moment.frame));
+        let is_left = finished.is_none();
+        all.extend(finished);
+        is_left
+    });
+    record.tell(all.len(), frames.len(), painter.messages);
+    if frames.is_empty() {
+        record.write()?;
+    }
+    let outcome = record.outcome();
     let mut reel =
-        Reel { painter, animation: &animation, rate, names, limit, facts: None, outcome: Outcome::Right };
+        Reel { painter, animation: &animation, rate, names, limit, record, drawn: Vec::new(), outcome };
     for still in animation.stills(moments) {
         reel.draw(&still?)?;
     }
-    if let Some(facts) = reel.facts {
-        let mut files = FileSet::new();
-        let shown = output::add_copy(&mut files, args.json.as_deref(), &facts, String::new)?;
-        output::finish(files, &shown)?;
-        painter.messages.say(&facts.summary());
+    all.extend(reel.drawn);
+    all.sort_by_key(|frame| frame.frame);
+    all.into_iter().for_each(|frame| facts.add(frame));
+    facts.shard = task.shard.map(|shard| ShardFacts::new(painter, shard, size, facts.seconds()));
+    write_facts(args, &facts)?;
+    match (frames, task.shard) {
+        ([], Some(shard)) => painter
+            .messages
+            .say(&format!("shard {shard}: nothing to draw, there are fewer frames than shards")),
+        _ => painter.messages.say(&facts.summary()),
     }
     Ok(reel.outcome)
 }
@@ -101,8 +130,7 @@ impl Reel<'_> {
         let (painter, path) = (self.painter, self.names.path(moment.frame));
         let sights = self.animation.sights(moment)?;
         let (camera, size) = aim(&sights.cameras, &painter.args.view)?;
-        let size = subdivided(size, painter.args.subdivide)?;
-        let shot = Shot { scene, lights: sights.lights, camera, size };
+        let shot = painter.shot(scene, sights.lights, camera, size)?;
         let work = timed(|| {
             let drawn = painter.draw(&shot, index, keeper, &[], self.limit)?;
             let mut files = FileSet::new();
@@ -113,9 +141,9 @@ impl Reel<'_> {
         });
         let drawn = work.value.map_err(|error: Error| in_frame(moment.frame, &error))?;
         painter.tell(&shot, &drawn, Some(moment.frame));
-        painter.messages.say(&format!("wrote {}", path.display()));
-        if drawn.is_native_wrong() {
-            self.outcome = Outcome::NativeWrong;
+        let outcome = if drawn.is_native_wrong() { Outcome::NativeWrong } else { Outcome::Right };
+        if outcome == Outcome::NativeWrong {
+            self.outcome = outcome;
         }
         let lights = drawn.light_facts(&shot).into_iter().zip(drawn.tester_facts(moment.frame));
         let facts = FrameFacts {
@@ -125,8 +153,9 @@ impl Reel<'_> {
             seconds: work.seconds,
             lights: lights.map(|(light, testers)| FrameLightFacts { light, testers }).collect(),
         };
-        let new = || FramesFacts::new(painter, &shot, self.rate.to_string());
-        self.facts.get_or_insert_with(new).add(facts);
+        self.record.add(&path, outcome, &facts).map_err(|error| in_frame(moment.frame, &error))?;
+        painter.messages.say(&format!("wrote {}", path.display()));
+        self.drawn.push(facts);
         Ok(())
     }
 }

@@ -2,16 +2,24 @@
 //!
 //! [`drawing`] makes one picture, [`facts`] is what `--json` says about it, and [`frames`] is the loop over many.
 
-mod drawing;
-mod facts;
-mod frame_list;
+mod agreement;
+pub mod drawing;
+pub mod facts;
+pub mod frame_list;
 mod frame_names;
 mod frames;
+mod manifest;
+mod record;
+pub mod shard;
+mod task;
 
+use self::agreement::settings;
 use self::drawing::Painter;
-use self::facts::Facts;
+use self::facts::{Common, Facts, LightFacts, ShardFacts};
 use self::frame_list::FrameList;
-use self::frame_names::FrameNames;
+use self::record::Record;
+use self::shard::{Shard, ShardBy};
+use self::task::{Pictures, Task};
 use super::options::{LightOptions, RunOptions, Shadows, Switches, TreeOptions, ViewOptions};
 use super::progress::Messages;
 use super::testers::{expect_available, expect_lights};
@@ -19,10 +27,12 @@ use super::view::View;
 use super::{Outcome, output, validate};
 use crate::atomic::folder_of;
 use crate::error::{Error, Result};
-use crate::film::{FileSet, unique_safe_names};
+use crate::film::{BLOCK_ROWS, FileSet, unique_safe_names};
+use crate::measure::timed;
 use crate::scene::{FrameRate, Light};
 use crate::shadow::shadow_buffer;
 use crate::shadow::{Fresh, TesterEntry, find};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -52,6 +62,18 @@ pub struct Args {
     /// No answer depends on it
     #[arg(long, requires = "frames")]
     rebuild: bool,
+    /// Part I of N of the run, for one process of many: without --frames a strip of whole rows, which is written as
+    /// OUT.shard-I-of-N.exr and put together by `merge`; with --frames a run of the list. No pixel depends on it
+    #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
+    shard: Option<Shard>,
+    /// What the run is divided by [default: frames with --frames, else tiles]
+    #[arg(long, value_name = "WHAT", requires = "shard")]
+    shard_by: Option<ShardBy>,
+    /// Do not draw again what an earlier run with the same settings has finished. OUT.manifest.json (with --shard
+    /// OUT.shard-I-of-N.manifest.json) says what that is; it is written with --frames, --shard or this option, after each
+    /// picture
+    #[arg(long, conflicts_with = "save_shadow_buffers")]
+    resume: bool,
     /// Tester of the shadows
     #[arg(long, value_name = "TESTER", default_value = "light-buffer")]
     shadow: String,
@@ -66,7 +88,7 @@ pub struct Args {
     json: Option<PathBuf>,
     /// Save the shadow-buffer of each light in this folder, as LIGHT.shadow-buffer, for other views of the scene;
     /// with --shadow shadow-buffer
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["no_shadows", "frames"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["no_shadows", "frames", "shard"])]
     save_shadow_buffers: Option<PathBuf>,
     /// Load the shadow-buffer of each light from a folder where they were saved, in place of filling it: those of
     /// another scene, light or size are refused; with --shadow shadow-buffer
@@ -77,7 +99,7 @@ pub struct Args {
 }
 
 /// The preview takes the name with `.png`, which must not be that of the picture itself.
-fn parse_output(text: &str) -> std::result::Result<PathBuf, String> {
+pub fn parse_output(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("exr") => Ok(path),
@@ -85,41 +107,10 @@ fn parse_output(text: &str) -> std::result::Result<PathBuf, String> {
     }
 }
 
-/// The files of a run.
-enum Pictures {
-    One(PathBuf),
-    Frames(FrameList, FrameNames),
-}
-
-impl Pictures {
-    fn first(&self) -> PathBuf {
-        match self {
-            Pictures::One(picture) => picture.clone(),
-            Pictures::Frames(frames, names) => names.path(frames.numbers()[0]),
-        }
-    }
-
-    fn all(&self) -> Box<dyn Iterator<Item = PathBuf> + '_> {
-        match self {
-            Pictures::One(picture) => Box::new(std::iter::once(picture.clone())),
-            Pictures::Frames(frames, names) => {
-                Box::new(frames.numbers().iter().map(|&frame| names.path(frame)))
-            }
-        }
-    }
-}
-
 impl Args {
     /// Codes of a verdict have no mean, and without shadows there is nothing to judge.
     fn without_verdict(&self) -> bool {
         self.no_verdict || self.subdivide > 1 || self.switches.shadows() == Shadows::Off
-    }
-
-    /// The files to write.
-    fn pictures(&self) -> Result<Pictures> {
-        let Some(frames) = &self.frames else { return Ok(Pictures::One(self.output.clone())) };
-        let names = FrameNames::of(&self.output).map_err(|why| Error::Usage(format!("-o: {why}")))?;
-        Ok(Pictures::Frames(frames.clone(), names))
     }
 
     /// Whose shadows the picture has.
@@ -151,7 +142,7 @@ impl Args {
 }
 
 /// The PNG beside a picture.
-fn preview(picture: &Path) -> PathBuf {
+pub fn preview(picture: &Path) -> PathBuf {
     picture.with_extension("png")
 }
 
@@ -166,15 +157,12 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         expect_available(tester)?;
         args.expect_shadow_buffer(tester)?;
     }
-    let pictures = args.pictures()?;
-    // All are in one folder.
-    let first = pictures.first();
-    output::expect_writable(&first)?;
-    output::expect_writable(&preview(&first))?;
-    output::warn_of_remains(folder_of(&first), messages);
+    let task = Task::of(args)?;
+    task.samples().try_for_each(|file| output::expect_writable(&file))?;
+    output::warn_of_remains(folder_of(&args.output), messages);
     args.json.as_deref().map_or(Ok(()), output::expect_writable)?;
     let view = View::load(&args.view, &args.lights, args.run.memory_limit(), messages)?;
-    let results = pictures.all().flat_map(|picture| [preview(&picture), picture]).chain(args.json.clone());
+    let results = task.files().chain(args.json.clone());
     output::expect_apart(&results.collect::<Vec<_>>(), &view.files)?;
     tester.map_or(Ok(()), |tester| expect_lights(tester, &view.scene.lights))?;
     let threads = rayon::current_num_threads();
@@ -187,32 +175,93 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
     if embree.is_some() && args.shadow != "embree" {
         entries.push(find("embree")?);
     }
-    let painter = Painter { args, tester, entries, embree, messages };
-    match pictures {
-        Pictures::One(picture) => render_one(&painter, view, &picture),
-        Pictures::Frames(frames, names) => frames::render(&painter, view, &frames, &names),
+    let names: Vec<_> = entries.iter().map(|entry| entry.name).collect();
+    let settings = settings(args, &view, &names, embree.as_ref())?;
+    let record = Record::begin(&task, args, &settings)?;
+    let painter = Painter { args, tester, entries, embree, messages, settings, tile: task.tile };
+    if painter.rows(view.size).count == 0 {
+        return nothing(&painter, &view, &task, record);
+    }
+    match &task.pictures {
+        Pictures::One(picture) => render_one(&painter, view, &task, picture, record),
+        Pictures::Frames(numbers, names) => frames::render(&painter, view, &task, numbers, names, record),
     }
 }
 
-/// One picture of the scene at rest.
-fn render_one(painter: &Painter, mut view: View, picture: &Path) -> Result<Outcome> {
+/// One picture of the scene at rest, or a strip of it.
+fn render_one(
+    painter: &Painter,
+    view: View,
+    task: &Task,
+    picture: &Path,
+    mut record: Record,
+) -> Result<Outcome> {
     let args = painter.args;
-    view.subdivide(args.subdivide)?;
-    let mut folders = FileSet::new();
-    if let Some(folder) = &args.save_shadow_buffers {
-        folders.folder(folder)?;
-    }
-    let buffers = args.shadow_buffer_files(&view.scene.lights);
-    let index = args.run.index(&view.scene);
-    let shot = view.shot();
-    let drawn = painter.draw(&shot, &index, &mut Fresh, &buffers, args.run.memory_limit())?;
+    let common = Common::new(painter, &view.scene.name, view.size);
+    let finished: Option<OneFinished> = record.finished(picture);
+    let (lights, seconds, outcome) = match finished {
+        Some(OneFinished { lights, seconds }) => {
+            record.tell(1, 1, painter.messages);
+            (lights, seconds, record.outcome())
+        }
+        None => {
+            let buffers = args.shadow_buffer_files(&view.scene.lights);
+            let mut folders = FileSet::new();
+            if let Some(folder) = &args.save_shadow_buffers {
+                folders.folder(folder)?;
+            }
+            let index = args.run.index(&view.scene);
+            let shot =
+                painter.shot(&view.scene, view.scene.lights.clone(), view.camera.clone(), view.size)?;
+            let work = timed(|| {
+                let drawn = painter.draw(&shot, &index, &mut Fresh, &buffers, args.run.memory_limit())?;
+                let mut files = FileSet::new();
+                painter.add(&mut files, picture, &shot, &drawn, None)?;
+                Ok((drawn, files))
+            });
+            let (drawn, mut files) = work.value?;
+            let lights = drawn.light_facts(&shot);
+            let outcome = if drawn.is_native_wrong() { Outcome::NativeWrong } else { Outcome::Right };
+            let shard = task.shard.map(|shard| ShardFacts::new(painter, shard, view.size, work.seconds));
+            let facts = Facts::new(common, shard, lights.clone());
+            let shown = output::add_copy(&mut files, args.json.as_deref(), &facts, String::new)?;
+            output::finish(files, &shown)?;
+            folders.publish()?;
+            record.add(picture, outcome, &OneFinished { lights, seconds: work.seconds })?;
+            painter.tell(&shot, &drawn, None);
+            painter.messages.say(&format!("wrote {}", picture.display()));
+            return Ok(outcome);
+        }
+    };
+    let shard = task.shard.map(|shard| ShardFacts::new(painter, shard, view.size, seconds));
+    write_facts(args, &Facts::new(common, shard, lights))?;
+    Ok(outcome)
+}
+
+/// A part without rows: there are more parts than blocks of rows.
+fn nothing(painter: &Painter, view: &View, task: &Task, record: Record) -> Result<Outcome> {
+    let (args, shard) = (painter.args, task.shard.expect("the whole has rows"));
+    painter.messages.say(&format!(
+        "shard {shard}: nothing to draw, {} rows are fewer blocks of {BLOCK_ROWS} than shards",
+        view.size.height
+    ));
+    record.write()?;
+    let common = Common::new(painter, &view.scene.name, view.size);
+    let facts = Facts::new(common, Some(ShardFacts::new(painter, shard, view.size, 0.0)), Vec::new());
+    write_facts(args, &facts)?;
+    Ok(Outcome::Right)
+}
+
+/// What `--json` asks for.
+fn write_facts(args: &Args, facts: &impl Serialize) -> Result<()> {
     let mut files = FileSet::new();
-    painter.add(&mut files, picture, &shot, &drawn, None)?;
-    let facts = Facts::new(painter, &shot, drawn.light_facts(&shot));
-    let shown = output::add_copy(&mut files, args.json.as_deref(), &facts, String::new)?;
-    output::finish(files, &shown)?;
-    folders.publish()?;
-    painter.tell(&shot, &drawn, None);
-    painter.messages.say(&format!("wrote {}", picture.display()));
-    Ok(if drawn.is_native_wrong() { Outcome::NativeWrong } else { Outcome::Right })
+    let shown = output::add_copy(&mut files, args.json.as_deref(), facts, String::new)?;
+    output::finish(files, &shown)
+}
+
+/// What is recorded of a single picture.
+#[derive(Serialize, Deserialize)]
+struct OneFinished {
+    lights: Vec<LightFacts>,
+    seconds: f64,
 }

@@ -100,6 +100,25 @@ impl SceneFiles {
     pub fn contain(&self, file: &Path) -> bool {
         self.0.iter().any(|read| read == file)
     }
+
+    /// A checksum of what is in them, wherever they are and in whatever order they were read; pipes and devices are left
+    /// out.
+    ///
+    /// # Errors
+    /// If one of them cannot be read any more.
+    pub fn checksum(&self) -> Result<u32> {
+        let mut all = Vec::new();
+        for path in self.0.iter().filter(|path| path.is_file()) {
+            all.push(crate::atomic::FileState::of(path)?);
+        }
+        all.sort();
+        let mut hasher = crc32fast::Hasher::new();
+        for state in all {
+            hasher.update(&state.bytes.to_le_bytes());
+            hasher.update(&state.crc32.to_le_bytes());
+        }
+        Ok(hasher.finalize())
+    }
 }
 
 /// The same as [`load_animation`], and the files that were read for it.

@@ -87,6 +87,8 @@ impl TreeStatistics {
 pub struct RayForest {
     /// The points of all trees, level by level; those that the camera sees come first.
     pub nodes: VisibleSurfaces,
+    /// The number of the first node of each level, from that of the rays from the eye on.
+    pub levels: Vec<u32>,
     /// The share of each node's radiance that reaches its pixel, linear Rec. 709.
     pub weights: Vec<[f32; 3]>,
     /// Pixels with rays that leave the scene, and the shares that those have.
@@ -124,8 +126,8 @@ impl RayForest {
         let hits = seen.points.len();
         let statistics =
             TreeStatistics { eye_rays, eye_hits: hits as u64, depth: 1, ..TreeStatistics::default() };
-        let mut forest =
-            RayForest { weights: vec![[1.0; 3]; hits], nodes: seen, sky: Vec::new(), statistics };
+        let (weights, levels) = (vec![[1.0; 3]; hits], vec![0]);
+        let mut forest = RayForest { weights, levels, nodes: seen, sky: Vec::new(), statistics };
         if scene.materials.iter().any(|material| rules.follow(material)) {
             let hierarchy = Hierarchy::new(scene);
             let mut first = 0;
@@ -137,6 +139,7 @@ impl RayForest {
                 }
                 room((first + twigs.len()) as u64)?;
                 forest.statistics.depth += 1;
+                forest.levels.push(first as u32);
                 forest.trace(scene, &hierarchy, &twigs);
             }
         }

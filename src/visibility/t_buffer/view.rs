@@ -86,7 +86,8 @@ fn pixel_grid(raster: &Raster, size: ImageSize) -> Grid {
     let half = 1.0 + raster.x0.abs() + raster.y0.abs();
     let half = half * half / 1_048_576.0;
     Grid {
-        origin: [raster.x0, raster.y0],
+        // Off by roundings of f64, far less than what the boxes are wider than the rays.
+        origin: [raster.x0, raster.y0 + f64::from(raster.first_row) * raster.step_y],
         step: [raster.step_x, raster.step_y],
         half: [half; 2],
         count: [size.width, size.height],

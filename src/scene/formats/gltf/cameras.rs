@@ -33,6 +33,7 @@ pub(super) fn read(document: &Document, placed: &Placed, index: u64) -> Result<O
         up: right.cross(forward).as_vec3(),
         tan_half_height: libm::tan(perspective.yfov * 0.5),
         size: None,
+        window: None,
     }))
 }
 

@@ -39,7 +39,16 @@ pub(super) fn read(entry: &CameraEntry, index: usize) -> Result<Camera, String> 
                     "expected `axes` to be unit vectors to the right, up and ahead, at right angles".into()
                 );
             }
-            Camera { name, origin: position, forward, right, up, tan_half_height: 1.0, size: None }
+            Camera {
+                name,
+                origin: position,
+                forward,
+                right,
+                up,
+                tan_half_height: 1.0,
+                size: None,
+                window: None,
+            }
         }
         (None, Some(_)) => return Err("`up` is for cameras with a `target`".into()),
         (None, None) => return Err("expected a `target` or `axes`, found neither".into()),

@@ -1,7 +1,10 @@
 //! How much memory a run may ask for. What depends on an input is estimated and checked before it is
 //! allocated, so that too large a request is one line and not the end of the process.
 
+mod control_group;
+
 use crate::error::{Error, Result};
+use crate::slurm;
 use std::fmt::Display;
 
 /// The most bytes that a run may need, and how many of them are spoken for.
@@ -20,13 +23,12 @@ impl MemoryLimit {
         MemoryLimit { most: bytes, spoken_for: 0 }
     }
 
-    /// What the machine has free, or the process's control group (version 2) allows, whichever is less; no
-    /// limit where neither can be found out.
+    /// What the machine has free, what the process's control group or one around it allows, or what Slurm has given the job,
+    /// whichever is least; no limit where none of it can be found out.
     pub fn of_this_machine() -> MemoryLimit {
         let free = std::fs::read_to_string("/proc/meminfo").ok().as_deref().and_then(available);
-        let group = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok();
-        let group = group.and_then(|text| text.trim().parse().ok());
-        free.into_iter().chain(group).min().map_or(MemoryLimit::NONE, MemoryLimit::bytes)
+        let least = [free, control_group::limit(), slurm::memory()].into_iter().flatten().min();
+        least.map_or(MemoryLimit::NONE, MemoryLimit::bytes)
     }
 
     /// Whether something fits beside what is spoken for.
