@@ -157,7 +157,9 @@ fn merge_refuses_what_is_missing_doubled_or_foreign_and_writes_nothing() {
     render(CAROUSEL, &whole, &options).done();
     refused(&[whole], &["whole.exr: no shard of render"]);
     refused(&[folder.path("none.exr")], &["none.exr: cannot open"]);
-    refused(&[folder.path("part.1-of-3.json")], &["there is no --json for JSON files"]);
+    let facts = folder.path("part.1-of-3.json");
+    refused(std::slice::from_ref(&facts), &["-o: expected OpenEXR files of shards"]);
+    refused(&[top.clone(), facts], &["part.1-of-3.json: there is no --json for JSON files"]);
     merge(&["-o", top.to_str().unwrap()], std::slice::from_ref(&top)).failed();
     assert!(read_exr(&top).unwrap().window().is_some());
 }

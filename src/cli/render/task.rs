@@ -57,7 +57,7 @@ impl Task {
 
     /// All files, each picture with its preview.
     pub fn files(&self) -> impl Iterator<Item = PathBuf> + '_ {
-        let with_preview = |picture: PathBuf| [preview(&picture), picture];
+        let with_preview = |picture: PathBuf| [picture.clone(), preview(&picture)];
         let (one, frames) = match &self.pictures {
             Pictures::One(picture) => (Some(picture.clone()), None),
             Pictures::Frames(numbers, names) => (None, Some((numbers, names))),
