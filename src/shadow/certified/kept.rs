@@ -11,7 +11,7 @@ use super::tiles::{AREA, TileGrid};
 
 use super::making::Lists;
 use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::memory::MemoryLimit;
@@ -108,7 +108,14 @@ impl<'a> Certified<'a> {
         let cast = self.cast();
         let survey =
             Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
-        let too_long = || memory.exceeded(what());
+        let too_long = || match memory.left() > MOST_BYTES {
+            true => Error::Usage(format!(
+                "{} would need lists of more than {} GiB, which is the most there can be; take fewer cells",
+                what(),
+                MOST_BYTES >> 30
+            )),
+            false => memory.exceeded(what()),
+        };
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let bins = self.bins(&survey, &budget).ok_or_else(too_long)?;
         let stored: Vec<u32> = touched(&bins, &grid).collect();
