@@ -18,6 +18,7 @@ mod options;
 mod output;
 mod picture;
 mod progress;
+mod read_json;
 mod render;
 mod replay;
 mod report;

@@ -1,7 +1,6 @@
 //! Sixteen answers as the bits of a number.
 
-use super::batch::InstructionSet;
-use super::batch::LANES;
+use super::batch::{InstructionSet, LANES};
 
 /// A bit for each lane that is not zero: of lanes that are 0 or 1. Compilers make a long way of this loop, which
 /// both instruction sets have an instruction for.

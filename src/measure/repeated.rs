@@ -32,6 +32,14 @@ impl Repeated {
         [shortest.unwrap_or(0.0), longest.unwrap_or(0.0)]
     }
 
+    /// The numbers of the things whose medians are the shortest, so many at most, the shortest first.
+    pub fn fastest<'a>(things: impl Iterator<Item = (usize, &'a Repeated)>, most: usize) -> Vec<usize> {
+        let mut medians: Vec<(usize, f64)> = things.map(|(number, times)| (number, times.median())).collect();
+        medians.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+        medians.truncate(most);
+        medians.into_iter().map(|(number, _)| number).collect()
+    }
+
     /// The middle one of the times, of an even number the mean of the two; 0 if it was never done.
     pub fn median(&self) -> f64 {
         let mut sorted = self.seconds.clone();

@@ -1,22 +1,19 @@
 //! What `--json` said about parts becomes one document.
 
 use super::super::output;
+use super::super::read_json::{read_json, unexpected};
 use super::super::render::facts::{
     Common, Facts, FrameFacts, FrameLightFacts, FramesFacts, LightFacts, ShardFacts,
 };
 use super::super::render::frame_list::FrameList;
 use super::super::render::shard::{Rows, ShardBy};
-use super::super::settings::{FRAMES, Settings, printable};
+use super::super::settings::{FRAMES, Settings};
 use crate::error::{Error, Place, Result};
 use crate::film::FileSet;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::fs::File;
-use std::io::Read;
 use std::path::Path;
-
-/// The longest document that is read.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// What one part said.
 struct Part<'p> {
@@ -94,14 +91,10 @@ pub fn add(files: &mut FileSet, json: &Path, shards: &[&Path]) -> Result<String>
 }
 
 fn read(path: &Path) -> Result<Part<'_>> {
-    let refused = |source| Error::io(path, "read", source);
-    let wrong = |why: &str| {
-        Error::input(path, Place::File, format!("expected facts of a shard of render: {}", printable(why)))
-    };
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(refused)?;
-    file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(refused)?;
-    let value: Value = serde_json::from_slice(&bytes).map_err(|error| wrong(&error.to_string()))?;
+    let expected = "facts of a shard of render";
+    let wrong = |why: &str| unexpected(path, expected, why);
+    let file = File::open(path).map_err(|source| Error::io(path, "read", source))?;
+    let value: Value = read_json(file, path, expected)?;
     fn typed<T: DeserializeOwned>(value: Value) -> serde_json::Result<T> {
         serde_json::from_value(value)
     }

@@ -34,7 +34,7 @@ pub struct Painter<'r> {
     pub entries: Vec<&'static TesterEntry>,
     pub embree: Option<EmbreeFacts>,
     pub messages: Messages,
-    /// What parts of one result have in common.
+    /// What parts of one result have in common; nothing if the run is no part and records nothing.
     pub settings: Settings,
     /// Which part this run draws, if that is a strip of each picture.
     pub tile: Option<Shard>,

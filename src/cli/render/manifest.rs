@@ -2,7 +2,8 @@
 //! goes on where it was.
 
 use super::super::output::add_json;
-use super::super::settings::{Settings, printable};
+use super::super::read_json::read_json;
+use super::super::settings::Settings;
 use super::shard::Shard;
 use crate::atomic::FileState;
 use crate::error::{Error, Place, Result};
@@ -11,11 +12,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-
-/// The longest manifest that is read.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// Whether pictures that are there already are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,19 +124,11 @@ fn name(picture: &Path) -> String {
 
 /// What is at the path, if anything is.
 fn read(path: &Path) -> Result<Option<Content>> {
-    let refused = |source| Error::io(path, "read", source);
-    let file = match File::open(path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(refused(error)),
-    };
-    let mut bytes = Vec::new();
-    file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(refused)?;
-    let wrong = |error: serde_json::Error| {
-        let why = printable(&error.to_string());
-        Error::input(path, Place::File, format!("expected the manifest of a run of render: {why}"))
-    };
-    serde_json::from_slice(&bytes).map(Some).map_err(wrong)
+    match File::open(path) {
+        Ok(file) => read_json(file, path, "the manifest of a run of render").map(Some),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Error::io(path, "read", error)),
+    }
 }
 
 #[cfg(test)]

@@ -22,6 +22,7 @@ use self::shard::{Shard, ShardBy};
 use self::task::{Pictures, Task};
 use super::options::{LightOptions, RunOptions, Shadows, Switches, TreeOptions, ViewOptions};
 use super::progress::Messages;
+use super::settings::Settings;
 use super::testers::{expect_available, expect_lights};
 use super::view::View;
 use super::{Outcome, output, validate};
@@ -176,7 +177,11 @@ fn render(args: &Args, messages: Messages) -> Result<Outcome> {
         entries.push(find("embree")?);
     }
     let names: Vec<_> = entries.iter().map(|entry| entry.name).collect();
-    let settings = settings(args, &view, &names, embree.as_ref())?;
+    // For those all files of the scene are read once more.
+    let settings = match &task.manifest {
+        Some(_) => settings(args, &view, &names, embree.as_ref())?,
+        None => Settings::default(),
+    };
     let record = Record::begin(&task, args, &settings)?;
     let painter = Painter { args, tester, entries, embree, messages, settings, tile: task.tile };
     if painter.rows(view.size).count == 0 {

@@ -166,10 +166,8 @@ fn other_epsilons(rows: &[Row], choice: &Choice) -> Vec<Contender> {
 
 /// Numbers of the best rows of a side, so many at most.
 fn best(rows: &[Row], side: Side, time: Time, most: usize) -> Vec<usize> {
-    let mut numbers: Vec<usize> = (0..rows.len()).filter(|&number| rows[number].counts_for(side)).collect();
-    numbers.sort_by(|&a, &b| time(&rows[a]).median().total_cmp(&time(&rows[b]).median()));
-    numbers.truncate(most);
-    numbers
+    let of_side = rows.iter().enumerate().filter(|(_, row)| row.counts_for(side));
+    Repeated::fastest(of_side.map(|(number, row)| (number, time(row))), most)
 }
 
 /// Those who take part in the rounds: of each side the best for queries and for frames.

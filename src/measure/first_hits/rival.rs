@@ -115,10 +115,8 @@ pub(super) fn measure(
         }
     }
     let best = |time: fn(&Row) -> &Repeated| {
-        let mut numbers: Vec<usize> = (1..rows.len()).collect();
-        numbers.sort_by(|&a, &b| time(&rows[a]).median().total_cmp(&time(&rows[b]).median()));
-        numbers.truncate(finalists);
-        numbers
+        let rivals = rows.iter().enumerate().skip(1);
+        Repeated::fastest(rivals.map(|(number, row)| (number, time(row))), finalists)
     };
     let mut finalists: Vec<usize> = [best(|row| &row.query), best(|row| &row.frame)].concat();
     finalists.sort_unstable();

@@ -100,15 +100,6 @@ fn reciprocal_power_of_two(number: f64) -> f64 {
     f64::from_bits((2046u64 << 52).wrapping_sub(number.to_bits() & EXPONENT) & EXPONENT)
 }
 
-/// Planes of a triangle, and the side of its own that the camera is on as far as f64 knows.
-#[inline(always)]
-fn planes(view: &View, corners: [DVec3; 3]) -> (OrientedPlanes, Option<Sign>) {
-    let planes = OrientedPlanes::from_apex(view.apex, corners);
-    let (height, bound) = planes.height;
-    let sign = Sign::certain(height, bound);
-    (planes, sign)
-}
-
 impl Cast {
     /// Of planes whose corners may go round the wrong way, which is so if `sign` is -1: all of them are then turned over,
     /// which is exact.
@@ -127,12 +118,12 @@ impl Cast {
         }
     }
 
-    /// `None` if the camera is in the triangle's plane.
+    /// One of which f64 does not know which way its corners go round; `None` if the camera is in the triangle's plane.
     #[inline(never)]
-    fn new(view: &View, primitive: PrimitiveIndex) -> Option<Cast> {
+    fn uncertain(view: &View, primitive: PrimitiveIndex) -> Option<Cast> {
         let corners = view.scene.corners(primitive);
-        let (planes, sign) = planes(view, corners.map(Vec3::as_dvec3));
-        match sign.unwrap_or_else(|| orientation(view.camera.origin, corners)) {
+        let planes = OrientedPlanes::from_apex(view.apex, corners.map(Vec3::as_dvec3));
+        match orientation(view.camera.origin, corners) {
             Sign::Zero => None,
             Sign::Positive => Some(Cast::of_planes(view, &planes, 1.0)),
             Sign::Negative => Some(Cast::of_planes(view, &planes, -1.0)),
@@ -257,7 +248,7 @@ impl Casts {
     #[inline(always)]
     pub fn get(&self, view: &View, i: usize) -> Option<Cast> {
         if !self.is_certain[i] {
-            return Cast::new(view, self.primitives[i]);
+            return Cast::uncertain(view, self.primitives[i]);
         }
         let [a, b, c] = &self.sides;
         Some(Cast { sides: [a.get(i), b.get(i), c.get(i)], nearness: self.nearness.get(i) })

@@ -122,6 +122,24 @@ impl<'a, K: Keyframe> Keyframes<'a, K> {
         Ok(())
     }
 
+    /// A light or camera: its track, its table at rest, and how it is moved as a whole.
+    ///
+    /// # Errors
+    /// As [`check`](Keyframes::check), or the place of the keyframes and why they cannot move it.
+    fn element<E, T>(
+        &self,
+        track: impl Track<T> + 'static,
+        rest: E,
+        at: usize,
+        about: &str,
+    ) -> Result<Element<E, T>, Complaint> {
+        self.check(&track, about)?;
+        let moved = self.transform(&TransformEntry::default());
+        let moved = moved.map_err(|why| (at, format!("{about}: {why}")))?;
+        let own = track.range().is_some().then(|| Arc::new(track) as _);
+        Ok(Element { rest, own, moved })
+    }
+
     /// What the first keyframe says that names a key.
     fn first<T>(&self, value: impl Fn(&K) -> Option<T>) -> Option<T> {
         self.keys.iter().find_map(|key| value(key.get_ref()))
@@ -247,12 +265,8 @@ pub(super) fn of_light(
         },
         index,
     };
-    keyframes.check(&track, about)?;
-    let moved = keyframes.transform(&TransformEntry::default());
-    let moved = moved.map_err(|why| (at, format!("{about}: {why}")))?;
     let rest = track.rest.clone();
-    let own = track.range().is_some().then(|| Arc::new(track) as _);
-    Ok(Some(Element { rest, own, moved }))
+    keyframes.element(track, rest, at, about).map(Some)
 }
 
 /// A camera with keyframes, if it has such.
@@ -287,12 +301,8 @@ pub(super) fn of_camera(
         },
         index,
     };
-    keyframes.check(&track, about)?;
-    let moved = keyframes.transform(&TransformEntry::default());
-    let moved = moved.map_err(|why| (at, format!("{about}: {why}")))?;
     let rest = track.rest.clone();
-    let own = track.range().is_some().then(|| Arc::new(track) as _);
-    Ok(Some(Element { rest, own, moved }))
+    keyframes.element(track, rest, at, about).map(Some)
 }
 
 /// Scale, rotation and translation over time.
