@@ -10,6 +10,7 @@ pub mod brute_force;
 pub mod certified;
 mod counters;
 mod crossings;
+mod duplicates;
 #[cfg(feature = "embree")]
 pub mod embree;
 pub mod exact;

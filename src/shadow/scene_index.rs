@@ -2,6 +2,7 @@
 
 use super::Solids;
 use super::certified::is_plain;
+use super::duplicates::duplicate_key;
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
@@ -131,14 +132,6 @@ fn bounds_of<'p>(scene: &Scene, primitives: impl Iterator<Item = &'p PrimitiveIn
 fn numbers(scene: &Scene, curved: PrimitiveIndex) -> Vec<u32> {
     let shape = scene.shape(curved).expect("a curved surface");
     shape.numbers().into_iter().map(|x| (x + 0.0).to_bits()).collect()
-}
-
-/// The same for triangles with the same three corners in any order.
-pub(super) fn duplicate_key(scene: &Scene, triangle: PrimitiveIndex) -> [[u32; 3]; 3] {
-    // Adding zero makes both zeros one.
-    let mut corners = scene.corners(triangle).map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
-    corners.sort_unstable();
-    corners
 }
 
 /// What casts as one light sees it: first triangles, without those whose plane holds the light, then curved

@@ -1,6 +1,6 @@
 //! What cases say beside their answers: bounded work, what is dropped, what is left of the light.
 
-use crate::ways::{Way, ask, with_buffer};
+use crate::ways::{Way, Who, ask, others, with_buffer};
 use crate::{assert_same, case, truths};
 use lightbuffer::geometry::batch::InstructionSet;
 use lightbuffer::hard_cases;
@@ -26,6 +26,19 @@ fn case_07_takes_as_many_tests_as_one_triangle_would() {
         let brute = BruteForce::new(&input, InstructionSet::best());
         let answers = answer(&brute, &situation.points, Question::Occlusion, &|_| {}).unwrap();
         assert!(answers.counters.tests <= queries, "{}", answers.counters.tests);
+    }
+}
+
+/// Lists of all 10,000 would be longer than lists are made.
+#[test]
+fn case_07_at_the_finest_resolutions() {
+    let situations = case(7).situations();
+    let truth = &truths(&situations)[0];
+    for entry in others() {
+        for resolution in [512, 2048] {
+            let way = Way { resolution, ..Way::of(Who::Other(entry, InstructionSet::best())) };
+            assert_same(&situations[0], &way.to_string(), &ask(&way, &situations[0]), truth);
+        }
     }
 }
 

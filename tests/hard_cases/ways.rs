@@ -43,7 +43,7 @@ pub struct Way {
 }
 
 impl Way {
-    const fn of(who: Who) -> Way {
+    pub const fn of(who: Who) -> Way {
         Way {
             who,
             receivers: Receivers::Anywhere,
@@ -136,7 +136,7 @@ pub fn ways(situation: &Situation) -> Vec<Way> {
 }
 
 /// Native testers beside those of which all settings are gone through.
-fn others() -> impl Iterator<Item = &'static TesterEntry> {
+pub fn others() -> impl Iterator<Item = &'static TesterEntry> {
     let known = ["brute-force", "bounding-volumes"];
     testers().filter(move |entry| entry.basis == Basis::Exact && !known.contains(&entry.name))
 }

@@ -24,6 +24,11 @@ impl Budget {
         *granted += if is_there { more } else { 0 };
         is_there
     }
+
+    /// Ends what was granted.
+    pub fn give_back(&self, granted: usize) {
+        self.left.fetch_add(granted, Relaxed);
+    }
 }
 
 /// What a tile looks at.
@@ -88,17 +93,19 @@ pub(super) struct Bins<'b> {
     large: Vec<Large>,
     budget: &'b Budget,
     granted: usize,
+    /// It ends where it has more callers and wants to grow.
+    most_callers: usize,
     /// Whether memory was asked for in vain: what follows is missing.
     pub overflowed: bool,
 }
 
 impl<'b> Bins<'b> {
     /// Nothing yet.
-    pub fn new(grid: &TileGrid, budget: &'b Budget) -> Bins<'b> {
+    pub fn new(grid: &TileGrid, budget: &'b Budget, most_callers: usize) -> Bins<'b> {
         // The list of a tile without any is the link at 0, of which it has none.
         let links = vec![Link::default()];
         let heads = vec![Head::default(); grid.count()];
-        Bins { heads, links, large: Vec::new(), budget, granted: 0, overflowed: false }
+        Bins { heads, links, large: Vec::new(), budget, granted: 0, most_callers, overflowed: false }
     }
 
     /// Enters something in a tile of the grid.
@@ -139,7 +146,8 @@ impl<'b> Bins<'b> {
     #[cold]
     fn may_grow(&mut self) -> bool {
         let needed = 2 * self.bytes();
-        self.overflowed |= !self.budget.grant(&mut self.granted, needed);
+        self.overflowed |=
+            self.callers() > self.most_callers || !self.budget.grant(&mut self.granted, needed);
         !self.overflowed
     }
 
@@ -160,11 +168,24 @@ impl<'b> Bins<'b> {
         }
     }
 
+    /// How many callers all tiles have.
+    pub fn callers(&self) -> usize {
+        let count = |head: &Head| head.count as usize;
+        let are_full = self.links.len() - 1 - self.heads.iter().filter(|head| head.link != 0).count();
+        are_full * Link::MOST + self.heads.iter().map(count).sum::<usize>()
+    }
+
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
         self.links.capacity() * size_of::<Link>()
             + self.large.capacity() * size_of::<Large>()
             + size_of_val(&self.heads[..])
+    }
+}
+
+impl Drop for Bins<'_> {
+    fn drop(&mut self) {
+        self.budget.give_back(self.granted);
     }
 }
 
@@ -186,7 +207,7 @@ mod tests {
     #[test]
     fn lists_are_by_tile() {
         let budget = Budget::new(1 << 30);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget);
+        let mut bins = Bins::new(&TileGrid::new(8), &budget, usize::MAX);
         (0..5).for_each(|i| bins.push(i % 2, Caller::Small(i)));
         bins.push(1, Caller::Large(0));
         assert_eq!(of(&bins, 0), [0, 2, 4].map(Caller::Small));
@@ -198,7 +219,7 @@ mod tests {
     #[test]
     fn long_lists_are_whole() {
         let budget = Budget::new(1 << 30);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget);
+        let mut bins = Bins::new(&TileGrid::new(8), &budget, usize::MAX);
         let count = 3 * Link::MOST as u32 + 1;
         (0..count).for_each(|i| bins.push(i % 2, Caller::Small(i)));
         for tile in 0..2 {
@@ -206,12 +227,24 @@ mod tests {
             found.sort_by_key(|caller| Packed::from(*caller).0);
             assert_eq!(found, (0..count).filter(|i| i % 2 == tile).map(Caller::Small).collect::<Vec<_>>());
         }
+        assert_eq!(bins.callers(), count as usize);
+    }
+
+    #[test]
+    fn it_ends_soon_after_the_most_callers() {
+        let budget = Budget::new(1 << 30);
+        let mut bins = Bins::new(&TileGrid::new(8), &budget, 1000);
+        let entered = (0..).take_while(|_| {
+            bins.push(0, Caller::Small(7));
+            !bins.overflowed
+        });
+        assert!((1000..4000).contains(&entered.count()));
     }
 
     #[test]
     fn nothing_is_entered_beyond_the_budget_and_it_says_so() {
         let budget = Budget::new(Budget::PORTION);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget);
+        let mut bins = Bins::new(&TileGrid::new(8), &budget, usize::MAX);
         let mut entered = 0;
         while !bins.overflowed {
             bins.push(0, Caller::Small(7));
@@ -219,5 +252,7 @@ mod tests {
         }
         assert!(bins.bytes() <= Budget::PORTION);
         assert_eq!(of(&bins, 0).len(), entered - 1);
+        drop(bins);
+        assert!(budget.grant(&mut 0, Budget::PORTION), "what was granted is given back");
     }
 }

@@ -11,7 +11,7 @@ use super::tiles::{AREA, TileGrid};
 
 use super::making::Lists;
 use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::memory::MemoryLimit;
@@ -43,15 +43,21 @@ pub struct Kept<'a> {
     work: Work,
 }
 
+/// What needs memory, in words.
+fn what(resolution: u32) -> String {
+    format!("a light buffer of {resolution} cells along an edge")
+}
+
 impl<'a> Certified<'a> {
-    /// Makes cells that are good for any query.
+    /// Makes cells that are good for any query. With fewer than asked for where their lists would be longer than lists are made, whatever
+    /// memory there is: thousands of triangles before one another that fill every cell. [`Kept::work`] says how many there are.
     ///
     /// # Errors
     /// [`Error::Usage`](crate::error::Error::Usage) for a resolution outside 1 to 4096, 2^28 triangles and more, or more memory than there may be.
     pub fn keep(self, resolution: u32) -> Result<Kept<'a>> {
         let _floats = StandardFloats::new();
         let memory = self.checked(resolution, 0)?;
-        self.keep_at(resolution, memory)
+        self.keep_at_most(resolution, memory)
     }
 
     /// The same with as many cells as are of use and need no more than so many bytes, if that can be.
@@ -63,7 +69,7 @@ impl<'a> Certified<'a> {
         let memory = self.checked(1, 0)?;
         let mut resolution = self.resolution_within(bytes, memory);
         loop {
-            let kept = self.keep_at(resolution, memory);
+            let kept = self.keep_at_most(resolution, memory);
             let is_small = kept.as_ref().is_ok_and(|kept| kept.bytes() as u64 <= bytes);
             if is_small || resolution <= LEAST_CELLS {
                 return kept;
@@ -79,10 +85,18 @@ impl<'a> Certified<'a> {
         let grid = TileGrid::new(FEW_CELLS);
         let (projected, horizon) = (self.projected(&projector), Horizon::endless(&grid));
         let cast = self.cast();
-        let survey =
-            Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
+        let duplicates = Vec::new();
+        let mut survey = Survey {
+            scene: self.scene,
+            cast,
+            duplicates,
+            projector,
+            grid,
+            horizon: &horizon,
+            projected: &projected,
+        };
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
-        let Some(bins) = self.bins(&survey, &budget) else { return LEAST_CELLS };
+        let Some(bins) = self.bins(&mut survey, &budget) else { return LEAST_CELLS };
         let tiles = touched(&bins, &grid).count() as u64;
         let triangles = self.scene.triangles.len() as u64;
         let a_cell = (size_of::<Header>() + size_of::<Run>() + size_of::<Record>()) as u64;
@@ -97,32 +111,40 @@ impl<'a> Certified<'a> {
         powers.rev().find(is_enough).unwrap_or(FEW_CELLS)
     }
 
-    fn keep_at(&self, resolution: u32, memory: MemoryLimit) -> Result<Kept<'a>> {
-        let what = || format!("a light buffer of {resolution} cells along an edge");
+    /// A limit that somebody set is kept by refusing, and that of all lists by taking fewer cells.
+    fn keep_at_most(&self, resolution: u32, memory: MemoryLimit) -> Result<Kept<'a>> {
+        self.with_fewer_cells(resolution, |cells| match self.keep_at(cells, memory)? {
+            None if memory.left() <= MOST_BYTES => Err(memory.exceeded(what(cells))),
+            kept => Ok(kept),
+        })
+    }
+
+    /// `None` if lists are too long.
+    fn keep_at(&self, resolution: u32, memory: MemoryLimit) -> Result<Option<Kept<'a>>> {
         let grid = TileGrid::new(resolution);
         let of_tiles = grid.count() * (size_of::<u32>() + size_of::<u64>());
-        let memory = memory.beside(what(), of_tiles as u64)?;
+        let memory = memory.beside(what(resolution), of_tiles as u64)?;
         let projector = Projector::new(self.light, resolution);
         let projected = self.projected(&projector);
         let horizon = Horizon::endless(&grid);
         let cast = self.cast();
-        let survey =
-            Survey { scene: self.scene, cast, projector, grid, horizon: &horizon, projected: &projected };
-        let too_long = || match memory.left() > MOST_BYTES {
-            true => Error::Usage(format!(
-                "{} would need lists of more than {} GiB, which is the most there can be; take fewer cells",
-                what(),
-                MOST_BYTES >> 30
-            )),
-            false => memory.exceeded(what()),
+        let duplicates = Vec::new();
+        let mut survey = Survey {
+            scene: self.scene,
+            cast,
+            duplicates,
+            projector,
+            grid,
+            horizon: &horizon,
+            projected: &projected,
         };
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
-        let bins = self.bins(&survey, &budget).ok_or_else(too_long)?;
+        let Some(bins) = self.bins(&mut survey, &budget) else { return Ok(None) };
         let stored: Vec<u32> = touched(&bins, &grid).collect();
         let cells = stored.len() as u64 * u64::from(AREA);
         let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
         let of_cells = cells * (size_of::<Header>() + size_of::<Run>()) as u64;
-        let left = memory.beside(what(), of_cells + bin_bytes as u64)?.left();
+        let left = memory.beside(what(resolution), of_cells + bin_bytes as u64)?.left();
         let budget = Budget::new(left.min(MOST_BYTES) as usize);
         let mut tiles = vec![OPEN; grid.count()];
         for (first, &tile) in (0..).step_by(AREA as usize).zip(&stored) {
@@ -137,12 +159,12 @@ impl<'a> Certified<'a> {
             bins: &bins,
             budget: &budget,
         };
-        let lists = self.lists(&lister, &stored).ok_or_else(too_long)?;
+        let Some(lists) = self.lists(&lister, &stored) else { return Ok(None) };
         let kept = size_of_val(&tiles[..]) + size_of_val(&projected[..]) + lists.bytes();
         let work = Work { bytes: (kept + bin_bytes) as u64, ..lists.work(resolution) };
         drop(bins);
         let (certified, space, size) = (*self, LightSpace::from(self.light), self.size());
-        Ok(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work })
+        Ok(Some(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work }))
     }
 }
 

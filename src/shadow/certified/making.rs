@@ -5,8 +5,9 @@ use super::certificate::{Header, Kinds, Record, Run};
 use super::lists::{self, Lister, Part, Scratch};
 use super::survey::{self, Survey};
 use super::tiles::AREA;
-use super::{Certified, Work};
+use super::{Certified, Work, is_plain};
 use crate::float_environment::StandardFloats;
+use crate::shadow::duplicates::duplicates;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -18,6 +19,11 @@ const CELLS: usize = TILES * AREA as usize;
 const TRIANGLES: usize = 2048;
 /// Workers that keep lists of their own: each has a number for every tile.
 const MOST_WORKERS: usize = 16;
+/// Tiles that a triangle is entered in, at the mean, before duplicates are looked for: a look-up each costs less.
+const FEW_TILES: usize = 16;
+/// At least what a triangle takes among those that were seen: a key, in a table of which a half may be empty, and whether it is one.
+const BYTES_OF_A_KEY: usize = 2 * size_of::<[[u32; 3]; 3]>() + 8;
+
 /// Headers and lists of all cells.
 pub(super) struct Lists {
     pub headers: Vec<Header>,
@@ -65,13 +71,33 @@ impl Lists {
 }
 
 impl Certified<'_> {
-    /// Triangles by tile, or `None` if there are too many.
-    pub(super) fn bins<'b>(&self, survey: &Survey<'_>, budget: &'b Budget) -> Option<Vec<Bins<'b>>> {
+    /// Triangles by tile, or `None` if there are too many. Duplicates are looked for, and left out, where triangles are entered so
+    /// often that it costs little beside.
+    pub(super) fn bins<'b>(&self, survey: &mut Survey<'_>, budget: &'b Budget) -> Option<Vec<Bins<'b>>> {
+        let most_callers = FEW_TILES * self.scene.triangles.len();
+        if let Some(bins) = self.bins_of_all(survey, budget, most_callers) {
+            return Some(bins);
+        }
+        let mut granted = 0;
+        if budget.grant(&mut granted, self.scene.triangles.len() * BYTES_OF_A_KEY) {
+            survey.duplicates = duplicates(self.scene, |triangle| is_plain(self.scene, triangle));
+        }
+        budget.give_back(granted);
+        self.bins_of_all(survey, budget, usize::MAX)
+    }
+
+    /// What all triangles but those that are left out are entered in, or `None` if there is too much of it.
+    fn bins_of_all<'b>(
+        &self,
+        survey: &Survey<'_>,
+        budget: &'b Budget,
+        most_callers: usize,
+    ) -> Option<Vec<Bins<'b>>> {
         let count = self.scene.triangles.len();
         let next = AtomicUsize::new(0);
         let worker = |_| {
             let _floats = StandardFloats::new();
-            let mut bins = Bins::new(&survey.grid, budget);
+            let mut bins = Bins::new(&survey.grid, budget, most_callers);
             loop {
                 let first = next.fetch_add(TRIANGLES, Relaxed);
                 if first >= count || bins.overflowed {

@@ -133,11 +133,15 @@ impl Certified<'_> {
         self.scene.vertices.len() * size_of::<Projected>() + self.scene.triangles.len()
     }
 
-    /// Makes something with so many cells along an edge, or fewer if the lists of so many are too long.
-    fn with_fewer_cells<T>(&self, resolution: u32, mut make: impl FnMut(u32) -> Option<T>) -> Result<T> {
+    /// Makes something with so many cells along an edge, or fewer if the lists of so many are too long (`None`).
+    fn with_fewer_cells<T>(
+        &self,
+        resolution: u32,
+        mut make: impl FnMut(u32) -> Result<Option<T>>,
+    ) -> Result<T> {
         let mut resolution = resolution;
         loop {
-            if let Some(made) = make(resolution) {
+            if let Some(made) = make(resolution)? {
                 return Ok(made);
             }
             if resolution == 1 {

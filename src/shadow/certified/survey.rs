@@ -27,6 +27,8 @@ pub(super) enum Cast {
 pub(super) struct Survey<'a> {
     pub scene: &'a Scene,
     pub cast: Cast,
+    /// For each triangle whether it is left out as a duplicate; of none if there is nothing here.
+    pub duplicates: Vec<bool>,
     pub projector: Projector,
     pub grid: TileGrid,
     pub horizon: &'a Horizon,
@@ -112,7 +114,8 @@ impl Survey<'_> {
         let present = u32::MAX >> (32 - count);
         each_bit(bits(set, &asked) & present, |lane| {
             let triangle = first + lane as u32;
-            if self.cast == Cast::Plain && !is_plain(self.scene, triangle) {
+            let is_duplicate = self.duplicates.get(triangle as usize) == Some(&true);
+            if is_duplicate || (self.cast == Cast::Plain && !is_plain(self.scene, triangle)) {
                 return;
             }
             let side = corners.side[lane];

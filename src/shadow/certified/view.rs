@@ -26,7 +26,7 @@ impl Certified<'_> {
         let _floats = StandardFloats::new();
         let of_points = points.len() * (size_of::<u32>() + size_of::<f32>() + 3);
         let memory = self.checked(resolution, of_points)?;
-        let make = |resolution| self.at_resolution(points, resolution, memory, occluded);
+        let make = |resolution| Ok(self.at_resolution(points, resolution, memory, occluded));
         let work = self.with_fewer_cells(resolution, make)?;
         Ok(Work { bytes: work.bytes + (of_points + self.fixed_bytes()) as u64, ..work })
     }
@@ -48,8 +48,10 @@ impl Certified<'_> {
             + grid.count() * 2 * size_of::<u32>();
         let budget = Budget::new(memory.left().saturating_sub(cell_bytes as u64).min(MOST_BYTES) as usize);
         let horizon = &filed.horizon;
-        let survey = Survey { scene, cast: self.cast(), projector, grid, horizon, projected: &projected };
-        let bins = self.bins(&survey, &budget)?;
+        let duplicates = Vec::new();
+        let mut survey =
+            Survey { scene, cast: self.cast(), duplicates, projector, grid, horizon, projected: &projected };
+        let bins = self.bins(&mut survey, &budget)?;
         let lister =
             Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
         let lists = self.lists(&lister, &filed.tiles.stored())?;

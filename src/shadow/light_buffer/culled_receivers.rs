@@ -13,7 +13,7 @@ use crate::geometry::occlusion::PreciseQuery;
 use crate::geometry::{ExactPosition, LightTriangle};
 use crate::scene::{PrimitiveIndex, Scene};
 use crate::shadow::Counters;
-use crate::shadow::scene_index::duplicate_key;
+use crate::shadow::duplicates::duplicate_key;
 use crate::visibility::SurfacePoint;
 use rayon::prelude::*;
 use std::collections::HashSet;
