@@ -13,7 +13,7 @@ use lightbuffer::scene::{Framing, ImageSize, Scene, formats, frame};
 use lightbuffer::shadow::certified::Certified;
 use lightbuffer::shadow::exact::Arbiter;
 use lightbuffer::shadow::{BuildInput, Queries, SceneIndex};
-use lightbuffer::visibility::{SurfacePoint, VisibleSurfaces, t_buffer};
+use lightbuffer::visibility::{Points, RoundedPoint, SurfacePoint, VisibleSurfaces, t_buffer};
 use std::hint::black_box;
 use std::path::Path;
 
@@ -28,6 +28,7 @@ struct View {
     scene: Scene,
     light: Vec3,
     points: Vec<SurfacePoint>,
+    rounded: Vec<RoundedPoint>,
 }
 
 impl View {
@@ -38,7 +39,11 @@ impl View {
         let visible = VisibleSurfaces::new(&scene, &scene.cameras[0], &hits);
         let points = Queries::new(&scene, &visible, &scene.lights[0]).points;
         let LightPosition::At(light) = scene.lights[0].position() else { panic!("a light at a point") };
-        View { scene, light, points }
+        View { scene, light, rounded: RoundedPoint::all(&points), points }
+    }
+
+    fn points(&self) -> Points<'_> {
+        Points::new(&self.rounded, &self.points)
     }
 
     fn certified(&self, set: InstructionSet) -> Certified<'_> {
@@ -91,11 +96,11 @@ fn cells(criterion: &mut Criterion) {
     for set in sets() {
         let kept = alone(|| view.certified(set).keep(512)).expect("room");
         group.bench_function(BenchmarkId::new("queries by kept cells", set.name()), |bencher| {
-            alone(|| bencher.iter(|| kept.occluded(black_box(&view.points), &mut answers)));
+            alone(|| bencher.iter(|| kept.occluded(black_box(view.points()), &mut answers)));
         });
         group.bench_function(BenchmarkId::new("a view at once", set.name()), |bencher| {
             alone(|| {
-                bencher.iter(|| view.certified(set).occluded(&view.points, 512, &mut answers).expect("room"))
+                bencher.iter(|| view.certified(set).occluded(view.points(), 512, &mut answers).expect("room"))
             });
         });
         group.bench_function(BenchmarkId::new("keeping", set.name()), |bencher| {

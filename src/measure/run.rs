@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::time::Instant;
 
 /// Queries that one task answers.
-const CHUNK: usize = 4096;
+pub(super) const CHUNK: usize = 4096;
 
 /// A value and the wall-clock seconds it took.
 #[derive(Debug, Clone, Copy)]

@@ -13,7 +13,7 @@ use super::{
     Basis, Batching, BuildInput, Counters, Crossings, Lights, ShadowTester, TesterEntry, kept_light_buffer,
 };
 use crate::error::Result;
-use crate::visibility::SurfacePoint;
+use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -66,9 +66,13 @@ impl ShadowTester for Auto<'_> {
     }
 
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        self.occluded_at(Points::new(&RoundedPoint::all(points), points), answers)
+    }
+
+    fn occluded_at(&self, points: Points<'_>, answers: &mut [bool]) -> Result<Counters> {
         match self.was_asked.swap(true, Relaxed) {
-            true => self.kept()?.occluded(points, answers),
-            false => self.once.occluded(points, answers),
+            true => self.kept()?.occluded_at(points, answers),
+            false => self.once.occluded_at(points, answers),
         }
     }
 

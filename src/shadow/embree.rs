@@ -25,7 +25,7 @@ use crate::embree::{Device, EmbreeMode, EmbreeScene, QueryOptions, Receiver, Sha
 use crate::error::Result;
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightPosition;
-use crate::visibility::{PointSource, SurfacePoint};
+use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use casters::Casters;
 use glam::Vec3;
 use std::iter;
@@ -143,11 +143,10 @@ impl Embree {
     /// The ray for a point: not normalised, so that 1 is the light, unless that would be beyond Embree's range.
     /// `None` for a point whose rounding is the light itself, and for one beyond Embree's range, as planes without
     /// end have: no ray can ask for those.
-    fn ray(&self, point: &SurfacePoint) -> Option<TracedRay> {
-        let origin = point.position.as_vec3();
+    fn ray(&self, point: &RoundedPoint) -> Option<TracedRay> {
+        let origin = Vec3::from(point.position);
         // Triangles and what ends are in range as a whole.
-        let is_curved = matches!(point.source, PointSource::OnCurved { .. });
-        if is_curved && !ShadowRay::is_in_range(origin.to_array()) {
+        if !point.is_bare() && !ShadowRay::is_in_range(point.position) {
             return None;
         }
         let (direction, t_near, t_far, t_light) = match self.light {
@@ -170,16 +169,20 @@ impl Embree {
     }
 
     /// The rays for as many points as there is room for at most; an empty one where there is none.
-    fn shadow_rays<'a>(&self, points: &[SurfacePoint], room: &'a mut [ShadowRay; RAYS]) -> &'a [ShadowRay] {
+    fn shadow_rays<'a>(
+        &self,
+        points: impl ExactSizeIterator<Item = RoundedPoint>,
+        room: &'a mut [ShadowRay; RAYS],
+    ) -> &'a [ShadowRay] {
         let rays = &mut room[..points.len()];
         for (ray, point) in rays.iter_mut().zip(points) {
-            *ray = self.shadow_ray(point).unwrap_or(ShadowRay::EMPTY);
+            *ray = self.shadow_ray(&point).unwrap_or(ShadowRay::EMPTY);
         }
         rays
     }
 
     /// The same as Embree is told.
-    fn shadow_ray(&self, point: &SurfacePoint) -> Option<ShadowRay> {
+    fn shadow_ray(&self, point: &RoundedPoint) -> Option<ShadowRay> {
         let ray = self.ray(point)?;
         Some(ShadowRay {
             origin: ray.origin.to_array(),
@@ -196,7 +199,17 @@ impl ShadowTester for Embree {
         let _floats = StandardFloats::new();
         let mut rays = [ShadowRay::EMPTY; RAYS];
         for (points, answers) in points.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            let rays = self.shadow_rays(points, &mut rays);
+            let rays = self.shadow_rays(points.iter().map(RoundedPoint::from), &mut rays);
+            self.scene.occluded(rays, self.query, answers)?;
+        }
+        Ok(Counters::default())
+    }
+
+    fn occluded_at(&self, points: Points<'_>, answers: &mut [bool]) -> Result<Counters> {
+        let _floats = StandardFloats::new();
+        let mut rays = [ShadowRay::EMPTY; RAYS];
+        for (points, answers) in points.rounded().chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
+            let rays = self.shadow_rays(points.iter().copied(), &mut rays);
             self.scene.occluded(rays, self.query, answers)?;
         }
         Ok(Counters::default())
@@ -206,7 +219,7 @@ impl ShadowTester for Embree {
         let _floats = StandardFloats::new();
         let (mut rays, mut found) = ([ShadowRay::EMPTY; RAYS], Vec::new());
         for points in points.chunks(RAYS) {
-            let rays = self.shadow_rays(points, &mut rays);
+            let rays = self.shadow_rays(points.iter().map(RoundedPoint::from), &mut rays);
             self.scene.crossed(rays, self.query, &mut found)?;
             let mut rest = found.iter().peekable();
             for ray in 0..rays.len() as u32 {
@@ -226,6 +239,6 @@ impl ShadowTester for Embree {
 
     fn traced_ray(&self, point: &SurfacePoint) -> Option<TracedRay> {
         let _floats = StandardFloats::new();
-        self.ray(point)
+        self.ray(&point.into())
     }
 }

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::error::Result;
 use crate::geometry::LightPosition;
-use crate::visibility::SurfacePoint;
+use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// `irregular-z-buffer` in the registry.
@@ -58,7 +58,7 @@ impl<'a> IrregularZBuffer<'a> {
     fn occluded_by_whole(
         &self,
         whole: &Certified,
-        points: &[SurfacePoint],
+        points: Points<'_>,
         answers: &mut [bool],
     ) -> Result<Counters> {
         let resolution = match self.resolution {
@@ -80,6 +80,10 @@ impl ShadowTester for IrregularZBuffer<'_> {
     }
 
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        self.occluded_at(Points::new(&RoundedPoint::all(points), points), answers)
+    }
+
+    fn occluded_at(&self, points: Points<'_>, answers: &mut [bool]) -> Result<Counters> {
         let mut counters = match &self.whole {
             Some(whole) => self.occluded_by_whole(whole, points, answers)?,
             None => {
@@ -87,7 +91,7 @@ impl ShadowTester for IrregularZBuffer<'_> {
                 Counters::default()
             }
         };
-        counters += self.rest.add_occluded(points, answers)?;
+        counters += self.rest.add_occluded(points.exact(), answers)?;
         Ok(counters)
     }
 

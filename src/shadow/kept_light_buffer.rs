@@ -11,7 +11,7 @@ use super::{
 };
 use crate::error::Result;
 use crate::geometry::LightPosition;
-use crate::visibility::SurfacePoint;
+use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use glam::Vec3;
 
 /// `light-buffer` in the registry.
@@ -67,8 +67,12 @@ impl ShadowTester for KeptLightBuffer<'_> {
     }
 
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        self.occluded_at(Points::new(&RoundedPoint::all(points), points), answers)
+    }
+
+    fn occluded_at(&self, points: Points<'_>, answers: &mut [bool]) -> Result<Counters> {
         let mut counters = self.whole.occluded(points, answers);
-        counters += self.rest.add_occluded(points, answers)?;
+        counters += self.rest.add_occluded(points.exact(), answers)?;
         Ok(counters)
     }
 

@@ -42,7 +42,7 @@ pub use solids::{FarSides, Solids};
 pub use traced_ray::TracedRay;
 
 use crate::error::{Error, Result};
-use crate::visibility::SurfacePoint;
+use crate::visibility::{Points, SurfacePoint};
 
 /// Answers shadow queries of one light.
 ///
@@ -53,6 +53,14 @@ pub trait ShadowTester: Send + Sync {
     /// # Errors
     /// If the tester cannot serve such points, or the library behind it fails.
     fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters>;
+
+    /// The same for points that are rounded already, which is what testers for speed read of most of them.
+    ///
+    /// # Errors
+    /// As [`occluded`](ShadowTester::occluded).
+    fn occluded_at(&self, points: Points<'_>, answers: &mut [bool]) -> Result<Counters> {
+        self.occluded(points.exact(), answers)
+    }
 
     /// Appends to `crossings`, for each point in order, the transparent primitives that its open segment
     /// crosses (row 19 of the notes on the 1986 paper, TRUTH "Transparent"). Asked only in scenes where

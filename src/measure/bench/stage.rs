@@ -7,7 +7,7 @@ use crate::geometry::batch::InstructionSet;
 use crate::memory::MemoryLimit;
 use crate::scene::{ImageSize, Scene};
 use crate::shadow::{Queries, SceneIndex};
-use crate::visibility::{SurfacePoint, VisibleSurfaces};
+use crate::visibility::{Points, RoundedPoint, SurfacePoint, VisibleSurfaces};
 
 /// What all contenders are given.
 pub struct Stage<'a> {
@@ -38,6 +38,7 @@ pub struct LightQueries {
 struct Ordered {
     order: Order,
     points: Vec<SurfacePoint>,
+    rounded: Vec<RoundedPoint>,
     /// For each point its place in rows; nothing for rows.
     places: Vec<u32>,
 }
@@ -55,18 +56,21 @@ impl<'a> Stage<'a> {
         memory: MemoryLimit,
     ) -> Result<Stage<'a>> {
         let queries = visible.points.len() as u64 * scene.lights.len() as u64;
-        let bytes = queries * (size_of::<SurfacePoint>() as u64 + 4) * orders.len() as u64;
+        let a_query = size_of::<SurfacePoint>() + size_of::<RoundedPoint>() + size_of::<u32>();
+        let bytes = queries * a_query as u64 * orders.len() as u64;
         let memory = memory.beside(format!("the queries of {} lights", scene.lights.len()), bytes)?;
         let of_light = |light: &crate::scene::Light| {
             let queries = Queries::new(scene, visible, light);
             let pixels: Vec<u32> = queries.nodes.iter().map(|&node| visible.pixels[node as usize]).collect();
-            let ordered = |&order: &Order| match order {
-                Order::Rows => Ordered { order, points: queries.points.clone(), places: Vec::new() },
-                Order::Tiles => {
-                    let places = order.of(&pixels, size);
-                    let points = places.iter().map(|&place| queries.points[place as usize]).collect();
-                    Ordered { order, points, places }
-                }
+            let ordered = |&order: &Order| {
+                let (points, places) = match order {
+                    Order::Rows => (queries.points.clone(), Vec::new()),
+                    Order::Tiles => {
+                        let places = order.of(&pixels, size);
+                        (places.iter().map(|&place| queries.points[place as usize]).collect(), places)
+                    }
+                };
+                Ordered { order, rounded: RoundedPoint::all(&points), points, places }
             };
             LightQueries { light: light.position(), orders: orders.iter().map(ordered).collect() }
         };
@@ -92,8 +96,9 @@ impl LightQueries {
     }
 
     /// The points in an order.
-    pub fn points(&self, order: Order) -> &[SurfacePoint] {
-        &self.ordered(order).points
+    pub fn points(&self, order: Order) -> Points<'_> {
+        let ordered = self.ordered(order);
+        Points::new(&ordered.rounded, &ordered.points)
     }
 
     /// Any point by its place in rows. Slow unless there are rows.

@@ -11,7 +11,7 @@ use super::survey::Cast;
 use super::walk::{Walk, walk};
 use crate::geometry::LightSpace;
 use crate::shadow::Counters;
-use crate::visibility::SurfacePoint;
+use crate::visibility::{Points, RoundedPoint};
 
 /// Queries of a task: those of a cell come together, and all that is looked up is near.
 pub(super) const QUERIES: usize = 1 << 15;
@@ -29,45 +29,74 @@ pub(super) struct Asked<'a> {
     pub lists: &'a Lists,
 }
 
+/// Queries that are being answered, chunk by chunk.
+pub(super) struct Answering<'a> {
+    asked: &'a Asked<'a>,
+    open: OpenQueries,
+    undecided: [bool; CHUNK],
+}
+
+impl<'a> Answering<'a> {
+    /// None yet.
+    pub fn new(asked: &'a Asked<'a>) -> Answering<'a> {
+        Answering { asked, open: OpenQueries::default(), undecided: [false; CHUNK] }
+    }
+
+    /// Answers up to [`CHUNK`] more, the first of which has the number `first`, as far as headers do.
+    pub fn add(
+        &mut self,
+        first: usize,
+        points: Points<'_>,
+        cells: &[u32],
+        depths: &[f32],
+        occluded: &mut [bool],
+    ) {
+        let Asked { certified, projector, size, lists, .. } = self.asked;
+        let headers = Headers { projector, size: *size, headers: &lists.headers };
+        let undecided = &mut self.undecided[..points.len()];
+        headers::decide(certified.set, &headers, cells, depths, occluded, undecided);
+        if self.asked.cast == Cast::Plain {
+            self.asked.leave_open_what_is_not_cast(points.rounded(), cells, occluded, undecided);
+        }
+        self.open.extend(projector, first, points.exact(), cells, undecided, |cell| lists.side_of(cell));
+    }
+
+    /// Answers what headers left open of all these.
+    pub fn finish(mut self, points: Points<'_>, occluded: &mut [bool]) -> Counters {
+        let Asked { certified, projector, space, projected, lists, .. } = *self.asked;
+        let Certified { scene, set, .. } = certified;
+        self.open.sort(lists.headers.len());
+        let OpenQueries { all, keys, .. } = self.open;
+        let mut counters =
+            Counters { cells: points.len() as u64, lists: all.len() as u64, ..Counters::default() };
+        let shared = Walk { scene, space, points: points.exact(), projected, lists, delta: projector.delta };
+        walk(set, &shared, &all, &keys, occluded, &mut counters);
+        counters
+    }
+}
+
 impl Asked<'_> {
     /// Answers up to [`QUERIES`] queries by their cells and depths.
     pub fn answer(
         &self,
-        points: &[SurfacePoint],
+        points: Points<'_>,
         cells: &[u32],
         depths: &[f32],
         occluded: &mut [bool],
     ) -> Counters {
-        let Certified { scene, set, .. } = self.certified;
-        let headers = Headers { projector: self.projector, size: self.size, headers: &self.lists.headers };
-        let mut open = OpenQueries::default();
-        let side_of = |cell| self.lists.side_of(cell);
-        for first in (0..points.len()).step_by(CHUNK) {
-            let chunk = first..points.len().min(first + CHUNK);
-            let (points, cells) = (&points[chunk.clone()], &cells[chunk.clone()]);
-            let occluded = &mut occluded[chunk.clone()];
-            let mut undecided = [false; CHUNK];
-            let undecided = &mut undecided[..chunk.len()];
-            headers::decide(set, &headers, cells, &depths[chunk], occluded, undecided);
-            if self.cast == Cast::Plain {
-                self.leave_open_what_is_not_cast(points, cells, occluded, undecided);
-            }
-            open.extend(self.projector, first, points, cells, undecided, side_of);
+        let mut answering = Answering::new(self);
+        let chunks = points.chunks(CHUNK).zip(cells.chunks(CHUNK)).zip(depths.chunks(CHUNK));
+        for (i, ((chunk, cells), depths)) in chunks.enumerate() {
+            let first = i * CHUNK;
+            answering.add(first, chunk, cells, depths, &mut occluded[first..first + chunk.len()]);
         }
-        open.sort(headers.headers.len());
-        let OpenQueries { all, keys } = open;
-        let mut counters =
-            Counters { cells: points.len() as u64, lists: all.len() as u64, ..Counters::default() };
-        let (projected, lists) = (self.projected, self.lists);
-        let shared = Walk { scene, space: self.space, points, projected, lists, delta: self.projector.delta };
-        walk(set, &shared, &all, &keys, occluded, &mut counters);
-        counters
+        answering.finish(points, occluded)
     }
 
     /// Certificates light what lies on a triangle that is cast; all else that is not dark asks the lists.
     fn leave_open_what_is_not_cast(
         &self,
-        points: &[SurfacePoint],
+        points: &[RoundedPoint],
         cells: &[u32],
         occluded: &[bool],
         undecided: &mut [bool],

@@ -1,6 +1,6 @@
 //! Cells of all that a light sees, kept for whatever is asked later: the light buffer.
 
-use super::answer::{Asked, QUERIES, sum};
+use super::answer::{Answering, Asked, QUERIES, sum};
 use super::bins::{Bins, Budget, touched};
 use super::certificate::{Header, Record, Run};
 use super::lists::Lister;
@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::memory::MemoryLimit;
-use crate::visibility::SurfacePoint;
+use crate::visibility::Points;
 use rayon::prelude::*;
 
 /// The resolution at which is looked where triangles lie.
@@ -169,8 +169,8 @@ impl<'a> Certified<'a> {
 }
 
 impl Kept<'_> {
-    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between `points[i]` and the light.
-    pub fn occluded(&self, points: &[SurfacePoint], occluded: &mut [bool]) -> Counters {
+    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between point i and the light.
+    pub fn occluded(&self, points: Points<'_>, occluded: &mut [bool]) -> Counters {
         (points.par_chunks(QUERIES), occluded.par_chunks_mut(QUERIES))
             .into_par_iter()
             .map(|(points, occluded)| self.some(points, occluded))
@@ -187,26 +187,9 @@ impl Kept<'_> {
         size_of_val(&self.tiles[..]) + size_of_val(&self.projected[..]) + self.lists.bytes()
     }
 
-    fn some(&self, points: &[SurfacePoint], occluded: &mut [bool]) -> Counters {
+    fn some(&self, points: Points<'_>, occluded: &mut [bool]) -> Counters {
         let _floats = StandardFloats::new();
         let Certified { scene, set, .. } = self.certified;
-        let (mut cells, mut depths) = (vec![0; points.len()], vec![0.0; points.len()]);
-        let chunks = cells.chunks_mut(CHUNK).zip(depths.chunks_mut(CHUNK));
-        for ((cells, depths), points) in chunks.zip(points.chunks(CHUNK)) {
-            let mut places = [0; CHUNK];
-            let places = &mut places[..points.len()];
-            Whereabouts { tiles: cells, places, depths }.find(
-                set,
-                &self.projector,
-                &self.grid,
-                scene,
-                points,
-            );
-            for (cell, &place) in cells.iter_mut().zip(&*places) {
-                let first = self.tiles.get(*cell as usize).copied().unwrap_or(OPEN);
-                *cell = if first == OPEN { OPEN } else { first + u32::from(place) };
-            }
-        }
         let asked = Asked {
             certified: self.certified,
             cast: self.cast,
@@ -216,6 +199,20 @@ impl Kept<'_> {
             projected: &self.projected,
             lists: &self.lists,
         };
-        asked.answer(points, &cells, &depths, occluded)
+        let mut answering = Answering::new(&asked);
+        let (mut cells, mut places, mut depths) = ([0; CHUNK], [0; CHUNK], [0.0; CHUNK]);
+        for (i, chunk) in points.chunks(CHUNK).enumerate() {
+            let first = i * CHUNK;
+            let cells = &mut cells[..chunk.len()];
+            let (places, depths) = (&mut places[..chunk.len()], &mut depths[..chunk.len()]);
+            let whereabouts = Whereabouts { tiles: cells, places, depths };
+            whereabouts.find(set, &self.projector, &self.grid, scene, chunk);
+            for (cell, &place) in cells.iter_mut().zip(&*places) {
+                let first = self.tiles.get(*cell as usize).copied().unwrap_or(OPEN);
+                *cell = if first == OPEN { OPEN } else { first + u32::from(place) };
+            }
+            answering.add(first, chunk, cells, depths, &mut occluded[first..first + chunk.len()]);
+        }
+        answering.finish(points, occluded)
     }
 }

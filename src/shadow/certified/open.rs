@@ -1,6 +1,7 @@
 //! Queries that headers leave open.
 
 use super::projection::{Projector, ROUNDOFF};
+use crate::geometry::fetch::fetch;
 use crate::scene::PrimitiveIndex;
 use crate::visibility::SurfacePoint;
 
@@ -61,6 +62,8 @@ pub(super) struct OpenQueries {
     pub all: Vec<Open>,
     /// The cell of each in the upper half, and its place in `all` in the lower.
     pub keys: Vec<u64>,
+    /// Those of a chunk: all are on their way from memory before the first is looked at.
+    found: Vec<u32>,
 }
 
 impl OpenQueries {
@@ -75,15 +78,21 @@ impl OpenQueries {
         undecided: &[bool],
         side_of: impl Fn(u32) -> u32,
     ) {
+        self.found.clear();
         for (eight, undecided) in undecided.chunks(8).enumerate() {
             // Mostly none of them.
             if !undecided.contains(&true) {
                 continue;
             }
             for (i, _) in (8 * eight..).zip(undecided).filter(|(_, undecided)| **undecided) {
-                self.keys.push(u64::from(cells[i]) << 32 | self.all.len() as u64);
-                self.all.push(Open::new(projector, side_of(cells[i]), (first + i) as u32, &points[i]));
+                fetch(&points[i].position);
+                fetch(&points[i].source);
+                self.found.push(i as u32);
             }
+        }
+        for i in self.found.iter().map(|&i| i as usize) {
+            self.keys.push(u64::from(cells[i]) << 32 | self.all.len() as u64);
+            self.all.push(Open::new(projector, side_of(cells[i]), (first + i) as u32, &points[i]));
         }
     }
 
@@ -153,7 +162,7 @@ mod tests {
     fn keys_are_sorted_by_cell_and_keep_their_order() {
         for (count, cells) in [(10u64, 7u64), (5000, 3), (5000, 4096), (20_000, 5_000_000)] {
             let key = |i: u64| (i * 7_654_321 % cells) << 32 | i;
-            let mut open = OpenQueries { all: Vec::new(), keys: (0..count).map(key).collect() };
+            let mut open = OpenQueries { keys: (0..count).map(key).collect(), ..OpenQueries::default() };
             let mut expected = open.keys.clone();
             expected.sort_unstable();
             open.sort(cells as usize);

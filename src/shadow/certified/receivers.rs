@@ -1,15 +1,16 @@
 //! Receivers filed in cells: where anybody asks, and how far away the farthest in each cell is.
 
-use super::projection::{Projected, Projector, cell_and_border};
+use super::projection::{Projected, Projector, cell_and_border, larger};
 use super::tiles::{AREA, TileGrid, Tiles};
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
+use crate::geometry::fetch::fetch;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
 use crate::shadow::light_buffer::cells::Cells;
-use crate::visibility::SurfacePoint;
+use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -94,7 +95,7 @@ pub(super) struct Filed {
 
 impl Filed {
     /// Files all receivers.
-    pub fn new(set: InstructionSet, projector: &Projector, scene: &Scene, points: &[SurfacePoint]) -> Filed {
+    pub fn new(set: InstructionSet, projector: &Projector, scene: &Scene, points: Points<'_>) -> Filed {
         let grid = TileGrid::new(projector.resolution);
         let tiles = Tiles::new(grid);
         // No more tiles than receivers. Pages that nobody writes to cost nothing.
@@ -136,43 +137,23 @@ impl Whereabouts<'_> {
         projector: &Projector,
         grid: &TileGrid,
         scene: &Scene,
-        points: &[SurfacePoint],
+        points: Points<'_>,
     ) {
         let Whereabouts { tiles, places, depths } = self;
-        let rounded = Rounded::new(points);
-        locate(set, projector, grid, rounded.coordinates(points.len()), tiles, places, depths);
-        for (i, point) in points.iter().enumerate() {
-            if tiles[i] == OPEN {
-                (tiles[i], places[i], depths[i]) = locate_exactly(projector, grid, scene, point);
-            }
-            if rounded.bare[i] {
-                depths[i] = f32::NAN;
+        locate(set, projector, grid, points.rounded(), tiles, places, depths);
+        // All are on their way from memory before the first is looked at.
+        let (mut open, mut count) = ([0u16; CHUNK], 0);
+        for (i, (&tile, point)) in tiles.iter().zip(points.exact()).enumerate() {
+            if tile == OPEN {
+                fetch(&point.position);
+                fetch(&point.source);
+                open[count] = i as u16;
+                count += 1;
             }
         }
-    }
-}
-
-/// Positions rounded to f32, axis by axis: each wrong by half an ulp and 2^-29 of that.
-struct Rounded {
-    axes: [[f32; CHUNK]; 3],
-    /// Which lie on no primitive.
-    bare: [bool; CHUNK],
-}
-
-impl Rounded {
-    #[inline(always)]
-    fn new(points: &[SurfacePoint]) -> Rounded {
-        let (mut axes, mut bare) = ([[0.0; CHUNK]; 3], [false; CHUNK]);
-        for (i, point) in points.iter().enumerate() {
-            bare[i] = point.primitive().is_none();
-            let position = point.position.as_vec3();
-            (axes[0][i], axes[1][i], axes[2][i]) = (position.x, position.y, position.z);
+        for i in open[..count].iter().map(|&i| i as usize) {
+            (tiles[i], places[i], depths[i]) = locate_exactly(projector, grid, scene, &points.exact()[i]);
         }
-        Rounded { axes, bare }
-    }
-
-    fn coordinates(&self, count: usize) -> [&[f32]; 3] {
-        self.axes.each_ref().map(|axis| &axis[..count])
     }
 }
 
@@ -216,7 +197,7 @@ for_instruction_sets! {
     fn locate = locate_body, (
         projector: &Projector,
         grid: &TileGrid,
-        points: [&[f32]; 3],
+        points: &[RoundedPoint],
         tiles: &mut [u32],
         places: &mut [u8],
         depths: &mut [f32],
@@ -229,30 +210,53 @@ fn locate_body(
     _: InstructionSet,
     projector: &Projector,
     grid: &TileGrid,
-    points: [&[f32]; 3],
+    points: &[RoundedPoint],
     tiles: &mut [u32],
     places: &mut [u8],
     depths: &mut [f32],
 ) {
-    let count = tiles.len();
-    let [x, y, z] = points.map(|coordinate| &coordinate[..count]);
-    let (places, depths) = (&mut places[..count], &mut depths[..count]);
-    for i in 0..count {
-        let p = projector.project([x[i], y[i], z[i]]);
-        let size = x[i].abs().max(y[i].abs()).max(z[i].abs());
-        let delta = projector.delta_of(size, p.w);
-        let ((column, du), (row, dv)) = (cell_and_border(p.u), cell_and_border(p.v));
-        let certain = (p.side != Projected::NOWHERE)
-            & (projector.error_of(size, p.w) < MOST_ERROR)
-            & (du.abs() > delta)
-            & (dv.abs() > delta)
-            & (column < projector.resolution)
-            & (row < projector.resolution);
-        tiles[i] = if certain { grid.tile(p.side, column, row) } else { OPEN };
-        places[i] = TileGrid::place(column, row) as u8;
-        depths[i] = p.w;
+    // All lanes are gone through, whether or not there are so many points: a loop without an end of its own.
+    let (mut x, mut y, mut z) = ([0.0; PORTION], [0.0; PORTION], [0.0; PORTION]);
+    let mut bare = [0u32; PORTION];
+    let (mut tile, mut place, mut depth) = ([0; PORTION], [0u32; PORTION], [0.0; PORTION]);
+    for first in (0..tiles.len()).step_by(PORTION) {
+        let portion = first..tiles.len().min(first + PORTION);
+        // A line of the cache holds four points.
+        for line in 0..PORTION / 4 {
+            if let Some(point) = points.get(first + AHEAD + 4 * line) {
+                fetch(point);
+            }
+        }
+        for (i, point) in points[portion.clone()].iter().enumerate() {
+            [x[i], y[i], z[i]] = point.position;
+            bare[i] = u32::from(point.is_bare());
+        }
+        for i in 0..PORTION {
+            let p = projector.project([x[i], y[i], z[i]]);
+            let size = larger(larger(x[i].abs(), y[i].abs()), z[i].abs());
+            let delta = projector.delta_of(size, p.w);
+            let ((column, du), (row, dv)) = (cell_and_border(p.u), cell_and_border(p.v));
+            let certain = (p.side != Projected::NOWHERE)
+                & (projector.error_of(size, p.w) < MOST_ERROR)
+                & (du.abs() > delta)
+                & (dv.abs() > delta)
+                & (column < projector.resolution)
+                & (row < projector.resolution);
+            tile[i] = if certain { grid.tile(p.side, column, row) } else { OPEN };
+            place[i] = TileGrid::place(column, row);
+            depth[i] = if bare[i] == 1 { f32::NAN } else { p.w };
+        }
+        let count = portion.len();
+        tiles[portion.clone()].copy_from_slice(&tile[..count]);
+        places[portion.clone()].iter_mut().zip(&place).for_each(|(to, &place)| *to = place as u8);
+        depths[portion].copy_from_slice(&depth[..count]);
     }
 }
+
+/// Points that are taken apart at a time.
+const PORTION: usize = 64;
+/// How far ahead points are fetched.
+const AHEAD: usize = 4 * PORTION;
 
 /// Tile, place and w of a point by its exact position; [`OPEN`] if that is the light.
 #[cold]
@@ -269,7 +273,8 @@ fn locate_exactly(
     };
     let w = (1.0 / at.z_low) as f32;
     // Together with its rounding that is within 3 roundoffs.
-    let is_known = at.z_high <= at.z_low * (1.0 + 1e-7) && w > 8.7e-19 && w < 1.1e18;
+    let is_exact = at.z_high <= at.z_low * (1.0 + 1e-7) && w > 8.7e-19 && w < 1.1e18;
+    let is_known = is_exact && point.primitive().is_some();
     let tile = grid.tile(at.side as u32, at.column, at.row);
     let place = TileGrid::place(at.column, at.row) as u8;
     (tile, place, if is_known { w } else { f32::NAN })

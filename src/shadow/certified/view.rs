@@ -12,17 +12,17 @@ use crate::error::Result;
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::memory::MemoryLimit;
-use crate::visibility::SurfacePoint;
+use crate::visibility::Points;
 use rayon::prelude::*;
 
 impl Certified<'_> {
-    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between `points[i]` and the light.
+    /// Sets `occluded[i]` to whether one of the triangles blocks the open segment between point i and the light.
     /// With fewer cells than asked for where their lists would need more memory than there may be.
     ///
     /// # Errors
     /// [`Error::Usage`](crate::error::Error::Usage) for a resolution outside 1 to 4096, 2^28 triangles and more, or too little memory for what does not
     /// depend on the resolution, or for one cell along an edge.
-    pub fn occluded(&self, points: &[SurfacePoint], resolution: u32, occluded: &mut [bool]) -> Result<Work> {
+    pub fn occluded(&self, points: Points<'_>, resolution: u32, occluded: &mut [bool]) -> Result<Work> {
         let _floats = StandardFloats::new();
         let of_points = points.len() * (size_of::<u32>() + size_of::<f32>() + 3);
         let memory = self.checked(resolution, of_points)?;
@@ -34,7 +34,7 @@ impl Certified<'_> {
     /// The same, or `None` if the lists of that many cells are too long.
     fn at_resolution(
         &self,
-        points: &[SurfacePoint],
+        points: Points<'_>,
         resolution: u32,
         memory: MemoryLimit,
         occluded: &mut [bool],

@@ -139,7 +139,11 @@ impl Lanes {
     /// Lanes that lie on a triangle.
     #[inline(always)]
     fn on(&self, set: InstructionSet, triangle: u32) -> u32 {
-        bits(set, &std::array::from_fn(|i| u32::from(self.base[i] == triangle)))
+        let mut on = [0u32; LANES];
+        for (on, &base) in on.iter_mut().zip(&self.base) {
+            *on = u32::from(base == triangle);
+        }
+        bits(set, &on)
     }
 
     /// Of some lanes those that a triangle on their side certainly blocks, and those that it may.
@@ -163,14 +167,15 @@ impl Lanes {
     ) -> (u32, u32) {
         let d = 1.25 * delta;
         let [a, b, c] = corners;
-        let edges: [[f32; 5]; 3] = std::array::from_fn(|j| {
+        let mut edges = [[0f32; 5]; 3];
+        for j in 0..3 {
             let (p, q) = (corners[j], corners[if j == 2 { 0 } else { j + 1 }]);
             let (du, dv) = (q.u - p.u, q.v - p.v);
             let x = larger(p.u - self.u_limits[0], self.u_limits[1] - p.u);
             let y = larger(p.v - self.v_limits[0], self.v_limits[1] - p.v);
             let slack = d * (1.25 * (du.abs() + dv.abs()) + 2.5 * (x + y) + 4.0 * d);
-            [p.u, p.v, du, dv, slack]
-        });
+            edges[j] = [p.u, p.v, du, dv, slack];
+        }
         let mut e = [[0f32; LANES]; 3];
         let (mut outside, mut inside) = ([0u32; LANES], [0u32; LANES]);
         for i in 0..LANES {
