@@ -6,7 +6,7 @@
 //! curved or lets light through is rare and has a light buffer of its own, where the scene has such.
 //! Under a light infinitely far away that light buffer has everything.
 
-use super::certified::{Certified, automatic_resolution};
+use super::certified::Certified;
 use super::rest::Rest;
 use super::{
     Basis, Batching, BuildInput, Counters, Crossings, Lights, Resolution, ShadowTester, TesterEntry,
@@ -62,7 +62,7 @@ impl<'a> IrregularZBuffer<'a> {
         answers: &mut [bool],
     ) -> Result<Counters> {
         let resolution = match self.resolution {
-            Resolution::Auto => automatic_resolution(points.len()),
+            Resolution::Auto => whole.automatic_resolution(points.len()),
             Resolution::Cells(cells) => cells,
         };
         let work = whole.occluded(points, resolution, answers)?;

@@ -145,9 +145,11 @@ impl<'b> Bins<'b> {
 
     #[cold]
     fn may_grow(&mut self) -> bool {
+        if self.overflowed {
+            return false;
+        }
         let needed = 2 * self.bytes();
-        self.overflowed |=
-            self.callers() > self.most_callers || !self.budget.grant(&mut self.granted, needed);
+        self.overflowed = self.callers() > self.most_callers || !self.budget.grant(&mut self.granted, needed);
         !self.overflowed
     }
 

@@ -1,6 +1,7 @@
 //! Cells of all that a light sees, kept for whatever is asked later: the light buffer.
 
 use super::answer::{Answering, Asked, QUERIES, sum};
+use super::automatic;
 use super::bins::{Bins, Budget, touched};
 use super::certificate::{Header, Record, Run};
 use super::lists::Lister;
@@ -74,12 +75,14 @@ impl<'a> Certified<'a> {
             if is_small || resolution <= LEAST_CELLS {
                 return kept;
             }
-            resolution /= 2;
+            // What cells need grows with their number.
+            let share = kept.map_or(0.5, |kept| (bytes as f64 / kept.bytes() as f64).sqrt().clamp(0.25, 1.0));
+            resolution = (f64::from(resolution) * share * 0.95) as u32;
         }
     }
 
-    /// The largest power of two for which so many bytes are to be expected: what a few cells show of the part of the
-    /// directions in which triangles lie, a header each, and records of triangles that lie in two or three cells each.
+    /// The most cells, in steps of [`FEW_CELLS`], for which so many bytes are to be expected: what a few cells show of the part of the
+    /// directions in which triangles lie, a header each, and records of triangles in so many cells as they are wide and high.
     fn resolution_within(&self, bytes: u64, memory: MemoryLimit) -> u32 {
         let projector = Projector::new(self.light, FEW_CELLS);
         let grid = TileGrid::new(FEW_CELLS);
@@ -100,15 +103,18 @@ impl<'a> Certified<'a> {
         let tiles = touched(&bins, &grid).count() as u64;
         let triangles = self.scene.triangles.len() as u64;
         let a_cell = (size_of::<Header>() + size_of::<Run>() + size_of::<Record>()) as u64;
+        let size = self.size_of_triangles();
         let expected = |resolution: u32| {
-            let finer = u64::from(resolution).pow(2) / u64::from(FEW_CELLS).pow(2);
-            tiles * u64::from(AREA) * finer * a_cell + triangles * (3 * size_of::<Record>()) as u64
+            let finer = u64::from(resolution / FEW_CELLS).pow(2);
+            let across = size * f64::from(resolution) / f64::from(automatic::CELLS);
+            let of_records = triangles as f64 * (2.0 + across) * size_of::<Record>() as f64;
+            tiles * u64::from(AREA) * finer * a_cell + of_records as u64
         };
         let is_enough = |resolution: &u32| {
             expected(*resolution) <= bytes && u64::from(*resolution).pow(2) <= MOST_A_TRIANGLE * triangles
         };
-        let powers = (FEW_CELLS.ilog2()..=MOST_CELLS.ilog2()).map(|power| 1 << power);
-        powers.rev().find(is_enough).unwrap_or(FEW_CELLS)
+        let steps = (1..=MOST_CELLS / FEW_CELLS).map(|step| step * FEW_CELLS);
+        steps.rev().find(is_enough).unwrap_or(FEW_CELLS)
     }
 
     /// A limit that somebody set is kept by refusing, and that of all lists by taking fewer cells.

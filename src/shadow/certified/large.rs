@@ -121,6 +121,9 @@ impl Survey<'_> {
                     is_entered = true;
                 }
             }
+            if bins.overflowed {
+                return;
+            }
         }
         if is_entered {
             bins.push_large(large);

@@ -17,6 +17,7 @@
 //! instruction set.
 
 mod answer;
+mod automatic;
 mod bins;
 mod block;
 mod cell_lists;
@@ -107,12 +108,6 @@ pub fn is_plain(scene: &Scene, primitive: PrimitiveIndex) -> bool {
 /// production hierarchies take.
 pub fn usual_bytes(scene: &Scene) -> u64 {
     (32 << 20) + 128 * scene.triangles.len() as u64
-}
-
-/// The resolution for a number of receivers: some four of them in a cell where they are close together.
-pub fn automatic_resolution(receivers: usize) -> u32 {
-    let wanted = (receivers as f64 * 0.5).sqrt();
-    (wanted as u32).next_power_of_two().clamp(16, 2048)
 }
 
 impl Certified<'_> {
