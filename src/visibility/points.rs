@@ -94,3 +94,41 @@ impl<'a> Points<'a> {
         pairs.map(|(rounded, exact)| Points { rounded, exact })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::visibility::PointSource;
+    use glam::DVec3;
+
+    fn points() -> Vec<SurfacePoint> {
+        let source = PointSource::Ray { origin: Vec3::ZERO, direction: Vec3::X, primitive: 7 };
+        let on = SurfacePoint { position: DVec3::new(1.0 / 3.0, -2.0, 1e-60), source };
+        vec![on, SurfacePoint::bare(Vec3::Y).expect("finite"), on]
+    }
+
+    #[test]
+    fn a_point_is_sixteen_bytes_and_rounded_to_nearest() {
+        assert_eq!(size_of::<RoundedPoint>(), 16);
+        let rounded = RoundedPoint::all(&points());
+        assert_eq!(rounded[0].position, [1.0f32 / 3.0, -2.0, 0.0]);
+        assert_eq!(rounded.iter().map(RoundedPoint::primitive).collect::<Vec<_>>(), [Some(7), None, Some(7)]);
+    }
+
+    #[test]
+    fn portions_hold_the_same_points_in_both_forms() {
+        let exact = points();
+        let rounded = RoundedPoint::all(&exact);
+        let portions: Vec<_> = Points::new(&rounded, &exact).chunks(2).collect();
+        assert_eq!(portions.iter().map(Points::len).collect::<Vec<_>>(), [2, 1]);
+        for portion in portions {
+            assert_eq!(RoundedPoint::all(portion.exact()), portion.rounded());
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "the same points in both forms")]
+    fn as_many_are_wanted_of_both() {
+        Points::new(&RoundedPoint::all(&points()[1..]), &points());
+    }
+}

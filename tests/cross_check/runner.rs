@@ -2,7 +2,7 @@
 
 use crate::cases::Case;
 use lightbuffer::geometry::LightPosition;
-use lightbuffer::measure::{Question, answer};
+use lightbuffer::measure::{Question, answer, answer_view};
 use lightbuffer::scene::{Light, PrimitiveIndex};
 use lightbuffer::shading::{RayForest, TreeRules};
 use lightbuffer::shadow::Queries;
@@ -13,7 +13,7 @@ use lightbuffer::shadow::{
     BuildInput, Culling, EmbreeSettings, ObjectCoherence, Resolution, SceneIndex, TesterEntry,
     VolumeThreshold,
 };
-use lightbuffer::visibility::{VisibleSurfaces, t_buffer};
+use lightbuffer::visibility::{Points, RoundedPoint, VisibleSurfaces, t_buffer};
 
 /// Checksum of the masks of all cases, the same in every build profile.
 pub const RECORDED_CHECKSUM: u64 = 11_373_790_335_096_143_609;
@@ -181,7 +181,13 @@ pub fn ask(entry: &TesterEntry, asked: &Asked, setting: Setting) -> Vec<bool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(setting.threads).build().unwrap();
     let one_light = |(light, queries): &(LightPosition, Queries)| {
         let tester = (entry.build)(&asked.input(*light, setting)).unwrap();
-        answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| {}).unwrap().occluded
+        let occluded =
+            answer(tester.as_ref(), &queries.points, Question::Occlusion, &|_| {}).unwrap().occluded;
+        // A tester that picks another way for its second view may be asked twice as well.
+        let rounded = RoundedPoint::all(&queries.points);
+        let at = answer_view(tester.as_ref(), Points::new(&rounded, &queries.points)).unwrap().occluded;
+        assert!(occluded == at, "{}: points that are rounded already have other answers", entry.name);
+        occluded
     };
     pool.install(|| asked.lights.iter().flat_map(one_light).collect())
 }
