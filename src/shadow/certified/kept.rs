@@ -7,7 +7,7 @@ use super::certificate::{Header, Record, Run};
 use super::lists::Lister;
 use super::projection::{Projected, Projector};
 use super::receivers::{CHUNK, Horizon, OPEN, Whereabouts};
-use super::survey::{Cast, Survey};
+use super::survey::Cast;
 use super::tiles::{AREA, TileGrid};
 
 use super::making::Lists;
@@ -87,17 +87,7 @@ impl<'a> Certified<'a> {
         let projector = Projector::new(self.light, FEW_CELLS);
         let grid = TileGrid::new(FEW_CELLS);
         let (projected, horizon) = (self.projected(&projector), Horizon::endless(&grid));
-        let cast = self.cast();
-        let duplicates = Vec::new();
-        let mut survey = Survey {
-            scene: self.scene,
-            cast,
-            duplicates,
-            projector,
-            grid,
-            horizon: &horizon,
-            projected: &projected,
-        };
+        let mut survey = self.survey(projector, grid, &horizon, &projected);
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let Some(bins) = self.bins(&mut survey, &budget) else { return LEAST_CELLS };
         let tiles = touched(&bins, &grid).count() as u64;
@@ -133,17 +123,7 @@ impl<'a> Certified<'a> {
         let projector = Projector::new(self.light, resolution);
         let projected = self.projected(&projector);
         let horizon = Horizon::endless(&grid);
-        let cast = self.cast();
-        let duplicates = Vec::new();
-        let mut survey = Survey {
-            scene: self.scene,
-            cast,
-            duplicates,
-            projector,
-            grid,
-            horizon: &horizon,
-            projected: &projected,
-        };
+        let mut survey = self.survey(projector, grid, &horizon, &projected);
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let Some(bins) = self.bins(&mut survey, &budget) else { return Ok(None) };
         let stored: Vec<u32> = touched(&bins, &grid).collect();
@@ -170,6 +150,7 @@ impl<'a> Certified<'a> {
         let work = Work { bytes: (kept + bin_bytes) as u64, ..lists.work(resolution) };
         drop(bins);
         let (certified, space, size) = (*self, LightSpace::from(self.light), self.size());
+        let cast = survey.cast;
         Ok(Some(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work }))
     }
 }

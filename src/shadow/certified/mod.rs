@@ -51,8 +51,9 @@ use cell_lists::Item;
 use glam::Vec3;
 use projection::{Projected, Projector};
 use rayon::prelude::*;
-use receivers::CHUNK;
-use survey::Cast;
+use receivers::{CHUNK, Horizon};
+use survey::{Cast, Survey};
+use tiles::TileGrid;
 
 /// The largest number of cells along an edge.
 pub const MOST_CELLS: u32 = 4096;
@@ -156,6 +157,21 @@ impl Certified<'_> {
             projection::project(self.set, projector, vertices, projected);
         });
         projected
+    }
+
+    /// What is cast as receivers see it, with all duplicates.
+    fn survey<'s>(
+        &self,
+        projector: Projector,
+        grid: TileGrid,
+        horizon: &'s Horizon,
+        projected: &'s [Projected],
+    ) -> Survey<'s>
+    where
+        Self: 's,
+    {
+        let (scene, cast, duplicates) = (self.scene, self.cast(), Vec::new());
+        Survey { scene, cast, duplicates, projector, grid, horizon, projected }
     }
 
     /// Which triangles are cast.

@@ -6,7 +6,6 @@ use super::certificate::{Header, Run};
 use super::lists::Lister;
 use super::projection::Projector;
 use super::receivers::Filed;
-use super::survey::Survey;
 use super::{Certified, Counters, MOST_BYTES, Work};
 use crate::error::Result;
 use crate::float_environment::StandardFloats;
@@ -48,9 +47,7 @@ impl Certified<'_> {
             + grid.count() * 2 * size_of::<u32>();
         let budget = Budget::new(memory.left().saturating_sub(cell_bytes as u64).min(MOST_BYTES) as usize);
         let horizon = &filed.horizon;
-        let duplicates = Vec::new();
-        let mut survey =
-            Survey { scene, cast: self.cast(), duplicates, projector, grid, horizon, projected: &projected };
+        let mut survey = self.survey(projector, grid, horizon, &projected);
         let bins = self.bins(&mut survey, &budget)?;
         let lister =
             Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
