@@ -192,27 +192,31 @@ impl Embree {
             excluded: ray.excluded.map_or(ShadowRay::NO_PRIMITIVE, |p| self.casters.index_of(p)),
         })
     }
-}
 
-impl ShadowTester for Embree {
-    fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+    /// Who is occluded, of points in any form that can be rounded.
+    fn occluded_some<P>(
+        &self,
+        points: &[P],
+        rounded: impl Fn(&P) -> RoundedPoint + Copy,
+        answers: &mut [bool],
+    ) -> Result<Counters> {
         let _floats = StandardFloats::new();
         let mut rays = [ShadowRay::EMPTY; RAYS];
         for (points, answers) in points.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            let rays = self.shadow_rays(points.iter().map(RoundedPoint::from), &mut rays);
+            let rays = self.shadow_rays(points.iter().map(rounded), &mut rays);
             self.scene.occluded(rays, self.query, answers)?;
         }
         Ok(Counters::default())
     }
+}
+
+impl ShadowTester for Embree {
+    fn occluded(&self, points: &[SurfacePoint], answers: &mut [bool]) -> Result<Counters> {
+        self.occluded_some(points, |point| point.into(), answers)
+    }
 
     fn occluded_at(&self, points: Points<'_>, answers: &mut [bool]) -> Result<Counters> {
-        let _floats = StandardFloats::new();
-        let mut rays = [ShadowRay::EMPTY; RAYS];
-        for (points, answers) in points.rounded().chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
-            let rays = self.shadow_rays(points.iter().copied(), &mut rays);
-            self.scene.occluded(rays, self.query, answers)?;
-        }
-        Ok(Counters::default())
+        self.occluded_some(points.rounded(), |&point| point, answers)
     }
 
     fn crossed(&self, points: &[SurfacePoint], crossings: &mut Crossings) -> Result<Counters> {

@@ -2,7 +2,7 @@
 
 use super::Solids;
 use super::certified::is_plain;
-use super::duplicates::duplicate_key;
+use super::duplicates::duplicates;
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::convexity::{self, Convexity};
 use crate::geometry::{LightPosition, LightSpace, LightTriangle};
@@ -48,9 +48,10 @@ impl SceneIndex {
     /// "Surface points and rays").
     pub fn casting(&self, scene: &Scene) -> &[PrimitiveIndex] {
         self.casting.get_or_init(|| {
-            let mut seen = HashSet::with_capacity(scene.triangles.len());
-            let mut is_new = |t| scene.masked(t).is_some() || seen.insert(duplicate_key(scene, t));
-            (0..scene.triangles.len() as u32).filter(|&t| blocks(scene, t) && is_new(t)).collect()
+            let duplicates = duplicates(scene, |t| is_plain(scene, t));
+            (0..scene.triangles.len() as u32)
+                .filter(|&t| blocks(scene, t) && !duplicates[t as usize])
+                .collect()
         })
     }
 
