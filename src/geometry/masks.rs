@@ -42,12 +42,20 @@ mod x86_64 {
     }
 }
 
-/// Calls for the place of each bit that is set.
-#[inline(always)]
-pub(crate) fn each_bit(mut bits: u32, mut call: impl FnMut(usize)) {
-    while bits != 0 {
-        call(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
+/// The places of the bits that are set. Not a call for each: a closure that is not inlined is compiled for the instructions that
+/// every machine has.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bits(pub u32);
+
+impl Iterator for Bits {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let place = self.0.trailing_zeros() as usize;
+        let is_there = self.0 != 0;
+        self.0 &= self.0.wrapping_sub(1);
+        is_there.then_some(place)
     }
 }
 
@@ -63,9 +71,7 @@ mod tests {
             for set in sets.into_iter().filter(|set| set.is_available()) {
                 assert_eq!(bits(set, &lanes), number, "{set:?}");
             }
-            let mut found = 0;
-            each_bit(number, |i| found |= 1 << i);
-            assert_eq!(found, number);
+            assert_eq!(Bits(number).fold(0, |found, i| found | 1 << i), number);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::curved::segment::{self, Base};
 use super::curved::{Meetings, Shape};
 use super::exact_number::{self, ExactNumber, ExactVector};
 use super::expansion;
-use super::planes::{OrientedPlanes, oriented};
+use super::planes::{Plane, oriented};
 use super::position::{ExactPosition, HomogeneousPoint};
 use super::texel::{Place, TexelAxis, Weights};
 use super::{LightPosition, LightSpace, ROUNDOFF, Sign};
@@ -86,18 +86,19 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
     }
 
     pub(super) fn blocks_in_f64(&self, corners: [Vec3; 3]) -> Option<bool> {
-        let corners = corners.map(Vec3::as_dvec3);
-        let planes = OrientedPlanes::new(&self.space, corners);
+        let [a, b, c] = corners;
+        let corners = [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()];
+        // Plane by plane, since the first one often says that it does not.
         let mut undecided = false;
         for i in 0..3 {
-            let (value, bound) = self.edge_in_f64(&planes, corners, i);
+            let (value, bound) = self.edge_in_f64(corners, i);
             match Sign::certain(value, bound) {
                 Some(Sign::Negative) => return Some(false),
                 Some(_) => {}
                 None => undecided = true,
             }
         }
-        let (value, bound) = self.height_in_f64(&planes, corners);
+        let (value, bound) = self.height_in_f64(corners);
         match Sign::certain(value, bound) {
             Some(Sign::Negative) => Some(false),
             Some(_) if !undecided => Some(true),
@@ -107,19 +108,27 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
 
     /// What the plane through the light and edge i of some corners, in the order of positive orientation, says
     /// of the point, in f64 and with the bound of the error. Both ends of the segment give the same.
-    pub(super) fn edge_in_f64(&self, planes: &OrientedPlanes, corners: [DVec3; 3], i: usize) -> (f64, f64) {
+    #[inline(always)]
+    pub(super) fn edge_in_f64(&self, corners: [DVec3; 3], i: usize) -> (f64, f64) {
+        let (a, b) = (corners[i], corners[if i == 2 { 0 } else { i + 1 }]);
         // Relative to a point of the plane: the light, or a corner of the edge.
-        let p = match self.space.light() {
-            LightPosition::At(light) => self.rounded - light.as_dvec3(),
-            LightPosition::Towards(_) => self.rounded - corners[i],
+        let (plane, p) = match self.space.light() {
+            LightPosition::At(light) => {
+                let light = light.as_dvec3();
+                (Plane::through(a - light, b - a), self.rounded - light)
+            }
+            LightPosition::Towards(direction) => {
+                (Plane::through(b - a, direction.as_dvec3()), self.rounded - a)
+            }
         };
-        planes.edges[i].dot(p, self.difference_error(p))
+        plane.dot(p, self.difference_error(p))
     }
 
     /// What the plane of some corners says of the point, in f64 and with the bound of the error.
-    pub(super) fn height_in_f64(&self, planes: &OrientedPlanes, corners: [DVec3; 3]) -> (f64, f64) {
-        let beyond = self.rounded - corners[0];
-        planes.own.dot(beyond, self.difference_error(beyond))
+    #[inline(always)]
+    pub(super) fn height_in_f64(&self, [a, b, c]: [DVec3; 3]) -> (f64, f64) {
+        let beyond = self.rounded - a;
+        Plane::through(b - a, c - a).dot(beyond, self.difference_error(beyond))
     }
 
     /// An edge exactly.
@@ -175,9 +184,8 @@ impl<F: Fn() -> ExactPosition> PreciseQuery<F> {
         let oriented = oriented(self.space.light(), corners).expect("a triangle that blocks");
         let axes = axes.map(|axis| axis.for_corners(oriented[1] == corners[1]));
         let in_f64 = oriented.map(Vec3::as_dvec3);
-        let planes = OrientedPlanes::new(&self.space, in_f64);
         // Each edge function is the weight of the corner across.
-        let rounded = [1, 2, 0].map(|edge| self.edge_in_f64(&planes, in_f64, edge));
+        let rounded = [1, 2, 0].map(|edge| self.edge_in_f64(in_f64, edge));
         Weights { rounded, exact: || [1, 2, 0].map(|edge| self.exact_edge(oriented, edge)) }.texels(&axes)
     }
 }

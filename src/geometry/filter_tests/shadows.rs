@@ -47,14 +47,14 @@ proptest! {
         let planes = OrientedPlanes::new(&s.space, corners.map(Vec3::as_dvec3));
         let values = plane_values(&s, corners, &p);
         for (i, value) in values[..3].iter().enumerate() {
-            let (found, bound) = query.edge_in_f64(&planes, corners.map(Vec3::as_dvec3), i);
+            let (found, bound) = query.edge_in_f64(corners.map(Vec3::as_dvec3), i);
             prop_assert!(is_within(found, bound, value), "edge {}: {:e} +- {:e}", i, found, bound);
             prop_assert_eq!(query.exact_edge(corners, i).sign(), sign(value));
             let (offset, bound) = planes.offsets[i];
             let of_origin = exact::edge(s.space.light(), corners[i], corners[(i + 1) % 3], &exact::vector(s.space.origin()));
             prop_assert!(is_within(-offset, bound, &of_origin));
         }
-        let (found, bound) = query.height_in_f64(&planes, corners.map(Vec3::as_dvec3));
+        let (found, bound) = query.height_in_f64(corners.map(Vec3::as_dvec3));
         prop_assert!(is_within(found, bound, &values[3]), "own: {:e} +- {:e}", found, bound);
         let (height, bound) = planes.height;
         prop_assert!(is_within(-height, bound, &exact::height(&corners, &exact::vector(s.space.origin()))));

@@ -4,7 +4,7 @@ use super::Certified;
 use super::headers::{self, Headers};
 use super::is_plain;
 use super::making::Lists;
-use super::open::OpenQueries;
+use super::open::{Chunk, OpenQueries};
 use super::projection::{Projected, Projector};
 use super::receivers::{CHUNK, OPEN};
 use super::survey::Cast;
@@ -58,7 +58,8 @@ impl<'a> Answering<'a> {
         if self.asked.cast == Cast::Plain {
             self.asked.leave_open_what_is_not_cast(points.rounded(), cells, occluded, undecided);
         }
-        self.open.extend(projector, first, points.exact(), cells, undecided, |cell| lists.side_of(cell));
+        let chunk = Chunk { first, points, cells, undecided };
+        self.open.extend(certified.set, projector, &chunk, |cell| lists.side_of(cell));
     }
 
     /// Answers what headers left open of all these.

@@ -58,6 +58,7 @@ impl Seen<'_> {
 
 /// What a triangle is in each cell of a block.
 #[derive(Debug, Default)]
+#[repr(C, align(64))]
 pub(super) struct Sixteen {
     pub flags: [u32; BLOCK],
     pub near: [f32; BLOCK],

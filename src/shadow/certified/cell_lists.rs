@@ -2,7 +2,7 @@
 
 use super::block::Sixteen;
 use super::tiles::AREA;
-use crate::geometry::masks::each_bit;
+use crate::geometry::masks::Bits;
 
 /// A triangle in a cell.
 #[derive(Debug, Clone, Copy)]
@@ -96,10 +96,10 @@ impl CellLists {
         sixteen: &Sixteen,
         live: u32,
     ) {
-        each_bit(live, |i| {
+        for i in Bits(live) {
             let item = Item::new(triangle, sixteen.flags[i] | more_flags);
             self.enter(first + i, item, sixteen.near[i], sixteen.far[i]);
-        });
+        }
     }
 
     /// Whether a cell holds nothing.

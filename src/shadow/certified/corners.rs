@@ -8,6 +8,7 @@ pub(super) const LANES: usize = 16;
 
 /// Corners of sixteen triangles, axis by axis.
 #[derive(Debug, Default)]
+#[repr(C, align(64))]
 pub(super) struct Corners {
     pub u: [[f32; LANES]; 3],
     pub v: [[f32; LANES]; 3],
@@ -17,15 +18,17 @@ pub(super) struct Corners {
 }
 
 impl Corners {
+    /// Takes in the triangle of three vertices.
     #[inline(always)]
-    pub fn set(&mut self, lane: usize, corners: [Projected; 3]) {
-        for (i, corner) in corners.into_iter().enumerate() {
-            self.u[i][lane] = corner.u;
-            self.v[i][lane] = corner.v;
-            self.w[i][lane] = corner.w;
+    pub fn set(&mut self, lane: usize, projected: &[Projected], vertices: [u32; 3]) {
+        let side = projected[vertices[0] as usize].side;
+        let mut is_on_one = true;
+        for i in 0..3 {
+            let corner = &projected[vertices[i] as usize];
+            (self.u[i][lane], self.v[i][lane], self.w[i][lane]) = (corner.u, corner.v, corner.w);
+            is_on_one &= corner.side == side;
         }
-        let [a, b, c] = corners.map(|corner| corner.side);
-        self.side[lane] = if (a == b) & (a == c) { a } else { Projected::NOWHERE };
+        self.side[lane] = if is_on_one { side } else { Projected::NOWHERE };
     }
 
     /// Limits of one coordinate in one lane.
@@ -45,10 +48,9 @@ impl Corners {
     /// Limits of u and v.
     #[inline(always)]
     pub fn limits(&self, lane: usize, delta: f32) -> [[f32; 2]; 2] {
-        [&self.u, &self.v].map(|of| {
-            let [low, high] = Corners::range(of, lane);
-            [low - delta, high + delta]
-        })
+        let ([u_low, u_high], [v_low, v_high]) =
+            (Corners::range(&self.u, lane), Corners::range(&self.v, lane));
+        [[u_low - delta, u_high + delta], [v_low - delta, v_high + delta]]
     }
 
     /// How they face the light as f32 tells it, or `None` where it does not; for those on one side.

@@ -54,7 +54,7 @@ mod tests {
             let projector = Projector::new(light, resolution);
             let projected = corners.map(|p| projector.project(p.to_array()));
             let mut sixteen = Corners::default();
-            sixteen.set(3, projected);
+            sixteen.set(3, &projected, [0, 1, 2]);
             if sixteen.side[3] != Projected::NOWHERE && let Some(found) = sixteen.facing(&projector)[3] {
                 prop_assert_eq!(found, exactly(light, corners));
             }

@@ -13,7 +13,7 @@ use super::small::Patches;
 use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
-use crate::geometry::masks::each_bit;
+use crate::geometry::masks::Bits;
 use crate::scene::Scene;
 
 /// All that the lists of tiles are made of.
@@ -120,7 +120,7 @@ impl Lister<'_> {
         for (sixteen, numbers) in triangles.chunks(LANES).zip(numbers.chunks(LANES)) {
             let mut of_sixteen = Corners::default();
             for (lane, vertices) in sixteen.iter().enumerate() {
-                of_sixteen.set(lane, vertices.map(|vertex| self.projected[vertex as usize]));
+                of_sixteen.set(lane, self.projected, *vertices);
             }
             let found = of_sixteen.facing(&self.projector);
             facing.extend(numbers.iter().zip(found).map(|(&number, found)| {
@@ -165,10 +165,10 @@ impl Lister<'_> {
                 of_lanes,
             };
             let there = self.enter_tiny(set, &triangles, &seen, patches, cells);
-            each_bit(there, |lane| {
+            for lane in Bits(there) {
                 let patch = patches.patch(lane, irregular[first + lane]);
                 self.enter_small(set, numbers[first + lane], &patch, &seen, cells);
-            });
+            }
         }
         for (large, &irregular) in large.into_iter().zip(&irregular[small..]) {
             let flags = if large.is_on_one_side { 0 } else { Item::IN_SPACE };
@@ -218,10 +218,10 @@ impl Lister<'_> {
         for y in 0..most[1] {
             for x in 0..most[0] {
                 let live = patches.in_cell(set, [x, y], seen, &of_lanes, &mut sixteen, &mut places);
-                each_bit(live & tiny, |lane| {
+                for lane in Bits(live & tiny) {
                     let item = Item::new(numbers[lane], sixteen.flags[lane]);
                     cells.enter(places[lane] as usize, item, sixteen.near[lane], sixteen.far[lane]);
-                });
+                }
             }
         }
         others

@@ -20,6 +20,7 @@ mod answer;
 mod automatic;
 mod bins;
 mod block;
+mod blockers;
 mod cell_lists;
 mod certificate;
 mod corners;

@@ -33,6 +33,12 @@ pub(super) struct Patches {
     swapped: [u32; LANES],
 }
 
+/// The cells of two coordinates.
+#[inline(always)]
+fn cells(ends: [f32; 2]) -> [u32; 2] {
+    [cell_and_border(ends[0]).0, cell_and_border(ends[1]).0]
+}
+
 impl Patches {
     /// Looks at triangles that are small.
     ///
@@ -57,7 +63,8 @@ impl Patches {
                 if is_swapped { [a, c, b] } else { [a, b, c] }
             };
             let (u, v, w) = (of(&corners.u), of(&corners.v), of(&corners.w));
-            let [columns, rows] = corners.limits(i, delta).map(|limits| limits.map(|x| cell_and_border(x).0));
+            let [columns, rows] = corners.limits(i, delta);
+            let (columns, rows) = (cells(columns), cells(rows));
             let centre = [columns[0] as i32 as f32 + 0.5, rows[0] as i32 as f32 + 0.5];
             let across = |ends: [u32; 2]| ends[1].wrapping_sub(ends[0]);
             let cells_across = across(columns).wrapping_add(across(rows));
@@ -100,7 +107,8 @@ impl Patches {
     /// Columns and rows of the cells that one touches.
     #[inline(always)]
     pub fn size(&self, lane: usize) -> [u32; 2] {
-        [&self.columns, &self.rows].map(|ends| ends[1][lane] - ends[0][lane] + 1)
+        let size = |ends: &[[u32; LANES]; 2]| ends[1][lane] - ends[0][lane] + 1;
+        [size(&self.columns), size(&self.rows)]
     }
 
     /// What each is in one cell of its box, so many columns and rows from the first; the place of that cell in the tile; and a
@@ -127,7 +135,7 @@ impl Patches {
                 & (in_tile_x < EDGE)
                 & (in_tile_y < EDGE);
             let place = TileGrid::place(column, row);
-            let limits = self.w_limits.each_ref().map(|limit| limit[i]);
+            let limits = [self.w_limits[0][i], self.w_limits[1][i]];
             let is_asked = is_there & (keys[(place & (AREA - 1)) as usize] > Horizon::key(limits[1]));
             let w = (self.w[i] + self.dw[0][i] * x) + self.dw[1][i] * y;
             let mut cover = Cover::WHOLE;
@@ -153,7 +161,7 @@ impl Patches {
     /// One of them, whose edges 01, 12 and 20 are irregular that have a bit in `irregular`.
     #[inline(always)]
     pub fn patch(&self, lane: usize, irregular: u8) -> Patch {
-        let edges = std::array::from_fn(|i| {
+        let edge = |i: usize| {
             let edge = &self.edges[i];
             let of_corners = if self.swapped[lane] == 1 { 2 - i } else { i };
             let is_irregular = irregular >> of_corners & 1 == 1;
@@ -166,15 +174,17 @@ impl Patches {
                 slack: edge.slack[lane],
                 meets: if is_irregular { within } else { -1.0 },
             }
-        });
+        };
+        let both = |of: &[[f32; LANES]; 2]| [of[0][lane], of[1][lane]];
+        let ends = |of: &[[u32; LANES]; 2]| [of[0][lane], of[1][lane]];
         Patch {
-            edges,
+            edges: [edge(0), edge(1), edge(2)],
             origin: [self.columns[0][lane], self.rows[0][lane]],
-            cells: CellBox { x: self.columns.map(|end| end[lane]), y: self.rows.map(|end| end[lane]) },
+            cells: CellBox { x: ends(&self.columns), y: ends(&self.rows) },
             w: self.w[lane],
-            dw: self.dw.map(|dw| dw[lane]),
+            dw: both(&self.dw),
             spread: self.spread[lane],
-            w_limits: self.w_limits.map(|limit| limit[lane]),
+            w_limits: both(&self.w_limits),
         }
     }
 }

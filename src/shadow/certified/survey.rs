@@ -8,7 +8,7 @@ use super::receivers::Horizon;
 use super::tiles::{EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
-use crate::geometry::masks::{bits, each_bit};
+use crate::geometry::masks::{Bits, bits};
 use crate::scene::Scene;
 use std::ops::Range;
 
@@ -38,6 +38,7 @@ pub(super) struct Survey<'a> {
 
 /// The tiles that sixteen triangles touch on their sides.
 #[derive(Debug, Default)]
+#[repr(C, align(64))]
 struct Spans {
     /// First and last column of tiles, first and last row.
     columns: [[u32; LANES]; 2],
@@ -66,7 +67,7 @@ impl Survey<'_> {
             let is_on_one_side = is_inside & (corners.side[i] != Projected::NOWHERE);
             let is_small = (u[1] - u[0] < MOST) & (v[1] - v[0] < MOST) & is_on_one_side;
             let tile = |x: f32| cell_and_border(x).0 / EDGE;
-            let (columns, rows) = (u.map(tile), v.map(tile));
+            let (columns, rows) = ([tile(u[0]), tile(u[1])], [tile(v[0]), tile(v[1])]);
             for end in 0..2 {
                 spans.columns[end][i] = columns[end];
                 spans.rows[end][i] = rows[end];
@@ -103,8 +104,7 @@ impl Survey<'_> {
     fn sixteen(&self, set: InstructionSet, first: u32, count: usize, bins: &mut Bins) {
         let mut corners = Corners::default();
         for lane in 0..count {
-            let vertices = self.scene.triangles[first as usize + lane].vertices;
-            corners.set(lane, vertices.map(|vertex| self.projected[vertex as usize]));
+            corners.set(lane, self.projected, self.scene.triangles[first as usize + lane].vertices);
         }
         let spans = self.spans(&corners);
         let mut asked = [0u32; LANES];
@@ -112,11 +112,11 @@ impl Survey<'_> {
             *asked = u32::from(spans.tile_key[i] > spans.key[i]);
         }
         let present = u32::MAX >> (32 - count);
-        each_bit(bits(set, &asked) & present, |lane| {
+        for lane in Bits(bits(set, &asked) & present) {
             let triangle = first + lane as u32;
             let is_duplicate = self.duplicates.get(triangle as usize) == Some(&true);
             if is_duplicate || (self.cast == Cast::Plain && !is_plain(self.scene, triangle)) {
-                return;
+                continue;
             }
             let side = corners.side[lane];
             if spans.small[lane] == 1 {
@@ -136,7 +136,7 @@ impl Survey<'_> {
                     self.survey_large(triangle, Some(side), bins);
                 }
             }
-        });
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use super::bins::Touched;
 use super::cast::{Cast, Spans};
 use super::view::View;
 use crate::geometry::batch::{InstructionSet, LANES};
-use crate::geometry::masks::{bits, each_bit};
+use crate::geometry::masks::{Bits, bits};
 
 /// More than a [`Ramp`](super::cast::Ramp) may be wrong by of itself.
 const ALLOWANCE: f32 = 1.0 / 2_097_152.0;
@@ -83,10 +83,10 @@ fn rows<const COLUMNS: usize>(
                 };
                 let drawn = sixteen::<COLUMNS>(set, &run, band, [first, row]);
                 band.tests += u64::from(drawn.touched.count_ones());
-                each_bit(drawn.undecided, |lane| {
+                for lane in Bits(drawn.undecided) {
                     let (column, down) = ((lane % COLUMNS) as u32, (lane / COLUMNS) as u32);
                     band.ask(view, touched.primitive, [first + column, row + down]);
-                });
+                }
                 if drawn.changed != 0 {
                     band.mark([first, row], run.count, drawn.changed.count_ones());
                 }
