@@ -38,31 +38,44 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// All bands of a picture, empty.
-    pub fn all(view: &View) -> Vec<Band> {
-        let [width, height] = view.grid.count;
-        let pitch = width as usize + LANES;
-        let band = |first_row: u32| {
-            let rows = (height - first_row).min(BAND_ROWS as u32);
-            let items = rows as usize * pitch;
-            let mut least = vec![0.0; items];
-            for row in least.chunks_exact_mut(pitch) {
-                row[width as usize..].fill(f32::INFINITY);
-            }
-            let blocks = (rows as usize).div_ceil(BLOCK[0]) * (width as usize).div_ceil(BLOCK[1]);
-            Band {
-                first_row,
-                rows,
-                pitch,
-                least,
-                most: vec![0.0; items],
-                items: vec![0; items],
-                blocks: vec![0.0; blocks],
-                changes: vec![WORTH_A_LOOK[0]; blocks],
-                tests: 0,
-            }
+    /// The band of a picture with this number, empty.
+    pub fn new(view: &View, number: usize) -> Band {
+        let mut band = Band {
+            first_row: 0,
+            rows: 0,
+            pitch: view.grid.count[0] as usize + LANES,
+            least: Vec::new(),
+            most: Vec::new(),
+            items: Vec::new(),
+            blocks: Vec::new(),
+            changes: Vec::new(),
+            tests: 0,
         };
-        (0..height).step_by(BAND_ROWS).map(band).collect()
+        band.begin(view, number);
+        band
+    }
+
+    /// Becomes the band with this number, empty.
+    pub fn begin(&mut self, view: &View, number: usize) {
+        let [width, height] = view.grid.count;
+        self.first_row = (number * BAND_ROWS) as u32;
+        self.rows = (height - self.first_row).min(BAND_ROWS as u32);
+        self.tests = 0;
+        let items = self.rows as usize * self.pitch;
+        empty(&mut self.least, items, 0.0);
+        empty(&mut self.most, items, 0.0);
+        empty(&mut self.items, items, 0);
+        for row in self.least.chunks_exact_mut(self.pitch) {
+            row[width as usize..].fill(f32::INFINITY);
+        }
+        let blocks = (self.rows as usize).div_ceil(BLOCK[0]) * (width as usize).div_ceil(BLOCK[1]);
+        empty(&mut self.blocks, blocks, 0.0);
+        empty(&mut self.changes, blocks, WORTH_A_LOOK[0]);
+    }
+
+    /// The number of the band among those of the picture.
+    pub fn number(&self) -> usize {
+        self.first_row as usize / BAND_ROWS
     }
 
     /// First row, and the one after the last.
@@ -80,10 +93,13 @@ impl Band {
         item.checked_sub(1)
     }
 
-    /// What is nearest at each pixel, a row at a time.
-    pub fn lines(&self) -> impl Iterator<Item = impl Iterator<Item = Option<PrimitiveIndex>>> {
-        let lines = self.items.chunks_exact(self.pitch);
-        lines.map(|line| line[..line.len() - LANES].iter().map(|&item| Band::primitive(item)))
+    /// Writes what is nearest at each pixel, row by row.
+    pub fn write(&self, hits: &mut [Option<PrimitiveIndex>]) {
+        for (items, hits) in self.items.chunks_exact(self.pitch).zip(hits.chunks_exact_mut(self.width())) {
+            for (hit, &item) in hits.iter_mut().zip(items) {
+                *hit = Band::primitive(item);
+            }
+        }
     }
 
     fn width(&self) -> usize {
@@ -193,6 +209,12 @@ impl Band {
             }
         }
     }
+}
+
+/// Makes a vector that long, and all of it one value.
+fn empty<T: Copy>(vector: &mut Vec<T>, length: usize, value: T) {
+    vector.clear();
+    vector.resize(length, value);
 }
 
 /// Where a ray hits a triangle.

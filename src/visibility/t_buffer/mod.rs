@@ -13,21 +13,18 @@ mod cast;
 mod curved_cast;
 mod draw;
 mod places;
+mod portion;
 mod view;
 
 use super::classical;
 use super::hit::FirstHits;
 use crate::float_environment::{InStandardFloats, StandardFloats};
 use crate::geometry::batch::InstructionSet;
-use crate::geometry::dispatch::for_instruction_sets;
 use crate::scene::{Camera, ImageSize, Scene};
 use band::Band;
-use bins::Touched;
-use cast::{Casts, GROUP};
-use curved_cast::CurvedCast;
-use draw::draw;
+use portion::Portion;
 use rayon::prelude::*;
-use view::View;
+use view::{BAND_ROWS, View};
 
 /// First hits by filling a t-buffer.
 pub fn first_hits(scene: &Scene, camera: &Camera, size: ImageSize) -> FirstHits {
@@ -40,51 +37,37 @@ pub fn first_hits_on(set: InstructionSet, scene: &Scene, camera: &Camera, size: 
     let Some(view) = View::new(scene, camera, size) else {
         return classical::first_hits(scene, camera, size);
     };
-    let mut bands = Band::all(&view);
     let places = places::places(set, &view);
-    for portion in bins::portions(set, &view, &places) {
-        let numbered = bands.par_iter_mut().enumerate().in_standard_floats();
-        numbered.for_each_init(Vec::new, |sorted, (number, band)| {
-            bins::front_to_back(&view, &portion, number, sorted);
-            draw_sorted(set, &view, sorted, band);
-        });
-    }
-    for portion in CurvedCast::portions(&view) {
-        bands.par_iter_mut().in_standard_floats().for_each(|band| {
-            for cast in &portion {
-                cast.draw(&view, band);
+    let mut portions = Portion::all(set, &view, &places);
+    let mut primitives = vec![None; size.pixels()];
+    let hits = primitives.par_chunks_mut(BAND_ROWS * size.width as usize).enumerate().in_standard_floats();
+    let (first, second) = (portions.next(), portions.next());
+    let tests = match (first, second) {
+        (None, _) => 0,
+        // Band after band in the same place of the cache.
+        (Some(only), None) => hits
+            .map_init(
+                || (Band::new(&view, 0), Vec::new()),
+                |(band, sorted), (number, hits)| {
+                    band.begin(&view, number);
+                    only.draw(set, &view, band, sorted);
+                    band.write(hits);
+                    band.tests
+                },
+            )
+            .sum(),
+        (Some(first), Some(second)) => {
+            let number = (size.height as usize).div_ceil(BAND_ROWS);
+            let mut bands: Vec<Band> = (0..number).map(|number| Band::new(&view, number)).collect();
+            for portion in [first, second].into_iter().chain(portions) {
+                let bands = bands.par_iter_mut().in_standard_floats();
+                bands.for_each_init(Vec::new, |sorted, band| portion.draw(set, &view, band, sorted));
             }
-        });
-    }
-    let mut primitives = Vec::with_capacity(size.pixels());
-    bands.iter().flat_map(Band::lines).for_each(|line| primitives.extend(line));
-    FirstHits { size, primitives, tests: bands.iter().map(|band| band.tests).sum() }
-}
-
-for_instruction_sets! {
-    /// Draws what is in a band.
-    fn draw_sorted = draw_sorted_body, (view: &View, sorted: &[Touched], band: &mut Band)
-}
-
-#[inline(always)]
-fn draw_sorted_body(set: InstructionSet, view: &View, sorted: &[Touched], band: &mut Band) {
-    let mut group = [Touched::NOTHING; GROUP];
-    let mut next = 0;
-    while next < sorted.len() {
-        let mut count = 0;
-        while count < GROUP && next < sorted.len() {
-            group[count] = sorted[next];
-            band.fetch(&sorted[next]);
-            count += usize::from(!band.hides(&sorted[next]));
-            next += 1;
+            hits.for_each(|(number, hits)| bands[number].write(hits));
+            bands.iter().map(|band| band.tests).sum()
         }
-        let casts = Casts::new(view, &group);
-        for (i, touched) in group[..count].iter().enumerate() {
-            if let Some(cast) = casts.get(view, i) {
-                draw(set, view, band, &cast, touched);
-            }
-        }
-    }
+    };
+    FirstHits { size, primitives, tests }
 }
 
 #[cfg(test)]
