@@ -2,6 +2,8 @@
 
 use super::cell_lists::{CellLists, Item};
 use super::projection::larger;
+use crate::geometry::batch::LANES;
+use std::cmp::Reverse;
 use std::ops::AddAssign;
 
 /// Two depths that decide most queries of a cell.
@@ -19,19 +21,23 @@ impl Header {
     pub const EMPTY: Header = Header { lit: 0.0, dark: 0.0 };
 }
 
-/// A record of a cell's list, nearest first.
+/// A record of a cell's list.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Record {
+    /// At least the largest w of the triangle in the cell.
     pub near: f32,
     pub item: Item,
 }
 
-/// Where a list is among others.
+/// Where a list is among others. It is in the order of depth, the nearest first, only if it is longer than [`UNSORTED`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Run {
     pub start: u32,
     pub length: u32,
 }
+
+/// Lists of so many are looked through at once, in any order.
+pub(super) const UNSORTED: usize = LANES;
 
 /// What cells turned out to be.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -59,7 +65,6 @@ pub(super) struct Entries {
     near: Vec<i32>,
     far: Vec<i32>,
     items: Vec<Item>,
-    sorted: Vec<Record>,
 }
 
 /// As many entries as most cells have at most: loops over so many have no branches.
@@ -76,8 +81,6 @@ struct Surface {
     covers: u32,
     /// Whether it is certain which do, and no irregular edge of it meets the cell.
     is_certain: bool,
-    /// How many entries it has.
-    count: usize,
     /// At least the largest w behind it, 0 if nothing is there.
     next: i32,
 }
@@ -86,7 +89,15 @@ impl Entries {
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
         self.near.capacity() * (2 * size_of::<f32>() + size_of::<Item>())
-            + self.sorted.capacity() * size_of::<Record>()
+    }
+
+    /// Appends a record of each of the first `count` that is no farther than `end`, and returns how many that are.
+    #[inline(always)]
+    fn append(&self, count: usize, end: i32, records: &mut Vec<Record>) -> usize {
+        let before = records.len();
+        let in_reach = self.near[..count].iter().zip(&self.items).filter(|(near, _)| **near >= end);
+        records.extend(in_reach.map(|(&near, &item)| Record { near: depth(near), item }));
+        records.len() - before
     }
 
     /// Takes in what a cell holds, and returns how much that is.
@@ -145,17 +156,16 @@ fn surface<const COUNT: usize>(near: &[i32], far: &[i32], items: &[Item], from: 
         }
         end = farther;
     }
-    let (mut covers, mut flags, mut count, mut next) = (0, 0, 0, 0);
+    let (mut covers, mut flags, mut next) = (0, 0, 0);
     for (&near, item) in near.iter().zip(items) {
         let is_of_it = (near >= end) & (near <= from);
         let of_it = if is_of_it { item.flags() } else { 0 };
         covers += of_it & Item::COVERS;
         flags |= of_it;
-        count += u32::from(is_of_it);
         next = next.max(if near < end { near } else { 0 });
     }
     let is_certain = flags & (Item::IRREGULAR | Item::MAY_COVER) == 0;
-    Surface { near: nearest, far: end, covers, is_certain, count: count as usize, next }
+    Surface { near: nearest, far: end, covers, is_certain, next }
 }
 
 /// A depth as bits, which must not be negative. Both zeros are one.
@@ -207,50 +217,31 @@ pub(super) fn certify(
     let start = records.len() as u32;
     if first.is_certain && first.covers == 1 && depth(first.far) > horizon {
         kinds.once += 1;
-        // Nobody asks for an order here who is not answered by the header, or hardly anybody.
-        let of_it = entries.near[..count].iter().zip(&entries.items).filter(|(near, _)| **near >= first.far);
-        records.extend(of_it.map(|(_, &item)| Record { near: depth(first.near), item }));
         let header = Header { lit: larger(depth(first.next), horizon), dark: depth(first.far) };
-        return (header, Run { start, length: first.count as u32 });
+        let length = entries.append(count, first.far, records);
+        // Nobody asks for an order here who is not answered by the header, or hardly anybody.
+        records[start as usize..].iter_mut().for_each(|record| record.near = depth(first.near));
+        return (header, Run { start, length: length as u32 });
     }
-    let Entries { near, items, sorted, .. } = entries;
-    sorted.clear();
-    sorted.extend(near[..count].iter().zip(&*items).map(|(&near, &item)| Record { near: depth(near), item }));
-    sort_by_depth(sorted);
-    let mut header = Header { lit: sorted[0].near, dark: 0.0 };
-    let (mut surface, mut end) = (first, first.count);
+    let mut header = Header { lit: depth(first.near), dark: 0.0 };
+    let (mut surface, mut end) = (first, 0);
     loop {
         if surface.is_certain && surface.covers > 0 && depth(surface.far) > horizon {
             // Whatever lies behind it is behind a dark place.
-            header.dark = depth(surface.far);
+            (header.dark, end) = (depth(surface.far), surface.far);
             kinds.covered += 1;
             break;
         }
         if surface.next == 0 || depth(surface.far) <= horizon {
-            end = entries.sorted.len();
             break;
         }
         surface = entries.surface(count, surface.next);
-        end += surface.count;
     }
-    records.extend_from_slice(&entries.sorted[..end]);
-    (header, Run { start, length: end as u32 })
-}
-
-/// Nearest first. Most cells have a handful.
-fn sort_by_depth(records: &mut [Record]) {
-    if records.len() > 20 {
-        return records.sort_unstable_by(|a, b| b.near.total_cmp(&a.near));
+    let length = entries.append(count, end, records);
+    if length > UNSORTED {
+        records[start as usize..].sort_unstable_by_key(|record| Reverse(bits(record.near)));
     }
-    for i in 1..records.len() {
-        let record = records[i];
-        let mut j = i;
-        while j > 0 && records[j - 1].near < record.near {
-            records[j] = records[j - 1];
-            j -= 1;
-        }
-        records[j] = record;
-    }
+    (header, Run { start, length: length as u32 })
 }
 
 #[cfg(test)]
@@ -266,7 +257,7 @@ mod tests {
         let (mut scratch, mut records) = (Entries::default(), Vec::new());
         let (header, run) = certify(&lists, 0, horizon, &mut scratch, &mut records, &mut Kinds::default());
         assert_eq!(run.length as usize, records.len());
-        assert!(records.is_sorted_by(|a, b| a.near >= b.near));
+        assert!(records.len() <= UNSORTED || records.is_sorted_by(|a, b| a.near >= b.near));
         (header, run.length)
     }
 

@@ -8,6 +8,7 @@ use super::tiles::AREA;
 use super::{Certified, Work, is_plain};
 use crate::float_environment::StandardFloats;
 use crate::shadow::duplicates::duplicates;
+use rayon::iter::repeat_n;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -38,7 +39,7 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// The list of a cell, nearest first.
+    /// The list of a cell, nearest first if it is longer than [`UNSORTED`](super::certificate::UNSORTED).
     pub fn of(&self, cell: usize) -> &[Record] {
         let run = self.runs[cell];
         &self.records[cell / CELLS][run.start as usize..][..run.length as usize]
@@ -115,8 +116,9 @@ impl Certified<'_> {
     /// Lists of all cells of some tiles, or `None` if they are too long.
     pub(super) fn lists(&self, lister: &Lister<'_>, tiles: &[u32]) -> Option<Lists> {
         let cells = tiles.len() * AREA as usize;
-        let mut headers = vec![Header::EMPTY; cells];
-        let mut runs = vec![Run::default(); cells];
+        // On all threads, since the pages are new.
+        let mut headers: Vec<Header> = repeat_n(Header::EMPTY, cells).collect();
+        let mut runs: Vec<Run> = repeat_n(Run::default(), cells).collect();
         let parts: Vec<Part> = headers
             .par_chunks_mut(CELLS)
             .zip(runs.par_chunks_mut(CELLS))

@@ -40,10 +40,12 @@ static ENDLESS: [u32; AREA as usize] = [u32::MAX; AREA as usize];
 
 impl Horizon {
     fn new(tiles: &Tiles, keys: &[AtomicU32]) -> Horizon {
-        let cells: Vec<u32> = keys[..tiles.cells()].iter().map(|key| key.load(Relaxed)).collect();
+        let cells: Vec<u32> = keys[..tiles.cells()].par_iter().map(|key| key.load(Relaxed)).collect();
+        let largest = |keys: &[u32]| keys.iter().copied().max().expect("a tile has cells");
+        let of_stored: Vec<u32> = cells.par_chunks(AREA as usize).map(largest).collect();
         let mut of_tiles = vec![0; tiles.grid.count()];
-        for (tile, keys) in tiles.stored().into_iter().zip(cells.chunks(AREA as usize)) {
-            of_tiles[tile as usize] = keys.iter().copied().max().expect("a tile has cells");
+        for (tile, key) in tiles.stored().into_iter().zip(of_stored) {
+            of_tiles[tile as usize] = key;
         }
         Horizon { cells: Some(cells), tiles: of_tiles }
     }

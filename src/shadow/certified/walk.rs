@@ -1,7 +1,7 @@
 //! Queries that headers leave open against the list of their cell, sixteen at a time.
 
 use super::blockers::{Blockers, Extent, Verdict};
-use super::certificate::Record;
+use super::certificate::{Record, UNSORTED};
 use super::making::Lists;
 use super::open::Open;
 use super::projection::Projected;
@@ -79,16 +79,16 @@ impl<'a> Walk<'a> {
 fn walk_one(
     set: InstructionSet,
     walk: &Walk<'_>,
-    records: &[Record],
+    list: &[Record],
     blockers: &mut Blockers,
     live: &mut Vec<Open>,
     occluded: &mut [bool],
     counters: &mut Counters,
 ) {
-    for records in records.chunks(LANES) {
+    for records in list.chunks(LANES) {
         let extent = Extent::of(live);
-        // Nothing further on can be before any of them.
-        if live.is_empty() || records[0].near < extent.lowest {
+        // Nothing further on can be before any of them, where there is an order.
+        if live.is_empty() || (list.len() > UNSORTED && records[0].near < extent.lowest) {
             return;
         }
         counters.tests += (records.len() * live.len()) as u64;
