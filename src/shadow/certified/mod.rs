@@ -3,10 +3,10 @@
 //! A view's queries of one light are filed in the cells of a cube around it ([`receivers`]). Triangles are then held, sixteen at
 //! a time, against the farthest receiver of each tile of cells that they touch ([`survey`], [`large`]). Tile by tile those
 //! that remain are entered in the cells where they may be in front of a receiver ([`lists`], [`small`], [`block`]), and
-//! the edges that two of them share are found ([`edges`]). For each cell that leaves a list, nearest first, and out of it a
+//! the edges that two of them share are found ([`edges`]). For each cell that leaves a list, and out of it a
 //! certificate: where the nearest surface is complete and covers the cell once, receivers on it are lit and what is
 //! behind it is dark ([`certificate`], TRUTH "Certified cells"). Queries are held against these two depths ([`headers`]);
-//! what is left walks through the lists, sixteen queries at a time ([`answer`], [`open`], [`walk`]), and where f32 leaves a
+//! what is left walks through the lists, sixteen triangles at a time ([`answer`], [`open`], [`walk`], [`blockers`]), and where f32 leaves a
 //! test open, f64 and exact arithmetic decide it.
 //!
 //! That is the way of a view that is drawn once ([`view`]). Cells that are [`kept`] for many are made wherever triangles lie, as

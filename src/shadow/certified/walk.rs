@@ -1,4 +1,4 @@
-//! Queries that headers leave open against the list of their cell, sixteen at a time.
+//! Queries that headers leave open against the list of their cell, sixteen triangles at a time.
 
 use super::blockers::{Blockers, Extent, Verdict};
 use super::certificate::{Record, UNSORTED};
