@@ -75,6 +75,7 @@ lint: packages
 	$(CARGO) fmt --check
 	$(CARGO) fmt --check --manifest-path fuzz/Cargo.toml
 	$(CARGO) clippy --all-targets -- -D warnings
+	@tests/planted_bugs.sh --where
 
 # A good part of them see nothing or face away: so many leave a million queries of each kind.
 RAYS ?= 1700000

@@ -227,8 +227,11 @@ mod tests {
             prop_assume!(!records.is_empty());
             let verdicts = |set: InstructionSet| {
                 let queries = open(set, &projector, &points);
-                let mut blockers = Blockers::default();
-                blockers.fill(&scene, &projected, &records, &Extent::of(&queries), projector.delta);
+                let (mut blockers, extent) = (Blockers::default(), Extent::of(&queries));
+                // What is left over from a longer list says nothing.
+                let longer: Vec<_> = records.iter().copied().cycle().take(LANES).collect();
+                blockers.fill(&scene, &projected, &longer, &extent, projector.delta);
+                blockers.fill(&scene, &projected, &records, &extent, projector.delta);
                 queries.iter().map(|query| blockers.against(set, query)).collect::<Vec<_>>()
             };
             let found = verdicts(InstructionSet::Portable);
