@@ -41,7 +41,7 @@ impl Portion {
 
 for_instruction_sets! {
     /// Draws what is in a band.
-    pub(super) fn draw_sorted = draw_sorted_body, (view: &View, sorted: &[Touched], band: &mut Band)
+    fn draw_sorted = draw_sorted_body, (view: &View, sorted: &[Touched], band: &mut Band)
 }
 
 #[inline(always)]
