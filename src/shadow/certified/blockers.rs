@@ -20,6 +20,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// Of all these.
     #[inline(always)]
     pub fn of(queries: &[Open]) -> Extent {
         let (mut least, mut lowest) = ([f32::INFINITY; 4], f32::INFINITY);
@@ -35,7 +36,7 @@ impl Extent {
     }
 }
 
-/// Up to sixteen triangles of a list; those that are not there repeat others.
+/// Up to sixteen triangles of a list; where fewer are there, others are left over.
 #[derive(Debug, Default)]
 #[repr(C, align(64))]
 pub(super) struct Blockers {
@@ -62,7 +63,7 @@ pub(super) struct Blockers {
 pub(super) struct Verdict {
     /// They block it for certain.
     pub blocked: u32,
-    /// They may.
+    /// They may, and are not behind it.
     pub open: u32,
 }
 
@@ -71,7 +72,7 @@ impl Blockers {
     /// projector.
     ///
     /// E of an edge from p to q at a receiver (x, y) is du (y - p.v) - dv (x - p.u). x - p.u and y - p.v are wrong by d, a
-    /// quarter above delta ([`Open::new`]), du and dv by 2 delta, which is 1.6 d; E by 1.6 d (|x - p.u| + |y - p.v|) +
+    /// quarter above delta (`open.rs`), du and dv by 2 delta, which is 1.6 d; E by 1.6 d (|x - p.u| + |y - p.v|) +
     /// d (|du| + |dv|) + 3.2 d^2. Roundings are 4 r of each product, where r R is 0.16 d: 0.64 d of the first sum. So 2.5 d of
     /// that, 1.25 d of the second and 4 d^2 are enough, for the largest differences of all receivers.
     #[inline(always)]
@@ -148,10 +149,10 @@ impl Blockers {
         Verdict { blocked: bits(set, &blocked) & self.present, open: bits(set, &open) & self.present }
     }
 
-    /// The triangle of a bit, and at least its w in the cell.
+    /// The triangle of a bit.
     #[inline(always)]
-    pub fn of_lane(&self, lane: usize) -> (u32, f32) {
-        (self.triangles[lane], self.near[lane])
+    pub fn triangle(&self, lane: usize) -> u32 {
+        self.triangles[lane]
     }
 }
 

@@ -5,12 +5,11 @@ use super::automatic;
 use super::bins::{Bins, Budget, touched};
 use super::certificate::{Header, Record, Run};
 use super::lists::Lister;
+use super::making::Lists;
 use super::projection::{Projected, Projector};
 use super::receivers::{CHUNK, Horizon, OPEN, Whereabouts};
 use super::survey::Cast;
 use super::tiles::{AREA, TileGrid};
-
-use super::making::Lists;
 use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
 use crate::error::Result;
 use crate::float_environment::StandardFloats;

@@ -39,6 +39,12 @@ fn cells(ends: [f32; 2]) -> [u32; 2] {
     [cell_and_border(ends[0]).0, cell_and_border(ends[1]).0]
 }
 
+/// Two values of a lane. Not by `map`, which is not always compiled for the instructions of whoever calls it.
+#[inline(always)]
+fn both<T: Copy>(of: &[[T; LANES]; 2], lane: usize) -> [T; 2] {
+    [of[0][lane], of[1][lane]]
+}
+
 impl Patches {
     /// Looks at triangles that are small.
     ///
@@ -135,7 +141,7 @@ impl Patches {
                 & (in_tile_x < EDGE)
                 & (in_tile_y < EDGE);
             let place = TileGrid::place(column, row);
-            let limits = [self.w_limits[0][i], self.w_limits[1][i]];
+            let limits = both(&self.w_limits, i);
             let is_asked = is_there & (keys[(place & (AREA - 1)) as usize] > Horizon::key(limits[1]));
             let w = (self.w[i] + self.dw[0][i] * x) + self.dw[1][i] * y;
             let mut cover = Cover::WHOLE;
@@ -175,16 +181,14 @@ impl Patches {
                 meets: if is_irregular { within } else { -1.0 },
             }
         };
-        let both = |of: &[[f32; LANES]; 2]| [of[0][lane], of[1][lane]];
-        let ends = |of: &[[u32; LANES]; 2]| [of[0][lane], of[1][lane]];
         Patch {
             edges: [edge(0), edge(1), edge(2)],
             origin: [self.columns[0][lane], self.rows[0][lane]],
-            cells: CellBox { x: ends(&self.columns), y: ends(&self.rows) },
+            cells: CellBox { x: both(&self.columns, lane), y: both(&self.rows, lane) },
             w: self.w[lane],
-            dw: both(&self.dw),
+            dw: both(&self.dw, lane),
             spread: self.spread[lane],
-            w_limits: both(&self.w_limits),
+            w_limits: both(&self.w_limits, lane),
         }
     }
 }

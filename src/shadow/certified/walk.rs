@@ -9,6 +9,7 @@ use crate::geometry::LightSpace;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::fetch::fetch;
+use crate::geometry::masks::Bits;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
 use crate::shadow::{Counters, precise};
@@ -141,26 +142,19 @@ for_instruction_sets! {
     )
 }
 
-/// Behind the float filter: whether one of those triangles blocks that have a bit in `open`.
+/// Behind the float filter: whether one of those triangles blocks that have a bit in `lanes`.
 #[cold]
 fn any_blocks(
     walk: &Walk<'_>,
     blockers: &Blockers,
     open: &Open,
-    mut lanes: u32,
+    lanes: u32,
     counters: &mut Counters,
 ) -> bool {
     let point = &walk.points[open.query as usize];
     let query = PreciseQuery::new(walk.space, point.position, || point.exact(walk.scene));
-    while lanes != 0 {
-        let (triangle, near) = blockers.of_lane(lanes.trailing_zeros() as usize);
-        lanes &= lanes - 1;
-        if near >= open.w_low {
-            counters.undecided += 1;
-            if precise::blocks(walk.scene, triangle, point.primitive(), &query, counters) {
-                return true;
-            }
-        }
-    }
-    false
+    Bits(lanes).any(|lane| {
+        counters.undecided += 1;
+        precise::blocks(walk.scene, blockers.triangle(lane), point.primitive(), &query, counters)
+    })
 }
