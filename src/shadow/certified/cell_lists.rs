@@ -7,7 +7,7 @@ use crate::geometry::masks::Bits;
 /// A triangle in a cell.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
-    /// The triangle and what it is in this cell.
+    /// The triangle, by its number in the tile, and what it is in this cell.
     pub item: Item,
     /// Where the next entry of the cell is; 0 ends the list.
     next: u32,
@@ -17,7 +17,7 @@ pub(super) struct Entry {
     pub far: f32,
 }
 
-/// A triangle by its number in the scene, and four flags.
+/// A triangle by its number in the tile or the scene, and four flags.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Item(u32);
 
@@ -30,6 +30,8 @@ impl Item {
     pub const IRREGULAR: u32 = 4;
     /// It does not lie on one side as a whole, so that it is tested in space.
     pub const IN_SPACE: u32 = 8;
+    /// What leaves open how often its surface covers the cell.
+    pub const DOUBTS: u32 = Item::MAY_COVER | Item::IRREGULAR;
     const FLAGS: u32 = 4;
 
     /// Triangles whose numbers an item can hold.

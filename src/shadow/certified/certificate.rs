@@ -2,6 +2,7 @@
 
 use super::cell_lists::{CellLists, Item};
 use super::projection::larger;
+use super::second_look::TileTriangles;
 use crate::geometry::batch::LANES;
 use std::cmp::Reverse;
 use std::ops::AddAssign;
@@ -85,6 +86,25 @@ struct Surface {
     next: i32,
 }
 
+/// A cell of a tile, in which nothing is withheld with a w above the horizon.
+pub(super) struct Cell<'a> {
+    pub tile: &'a TileTriangles<'a>,
+    pub lists: &'a CellLists,
+    /// Its place in the tile.
+    pub place: usize,
+    /// Its column and row.
+    pub at: [u32; 2],
+    pub horizon: f32,
+}
+
+impl Cell<'_> {
+    /// The record of an entry.
+    #[inline(always)]
+    fn record(&self, item: Item, near: f32) -> Record {
+        Record { near, item: Item::new(self.tile.numbers[item.triangle() as usize], item.flags()) }
+    }
+}
+
 impl Entries {
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
@@ -93,16 +113,16 @@ impl Entries {
 
     /// Appends a record of each of the first `count` that is no farther than `end`, and returns how many that are.
     #[inline(always)]
-    fn append(&self, count: usize, end: i32, records: &mut Vec<Record>) -> usize {
+    fn append(&self, cell: &Cell<'_>, count: usize, end: i32, records: &mut Vec<Record>) -> usize {
         let before = records.len();
         let in_reach = self.near[..count].iter().zip(&self.items).filter(|(near, _)| **near >= end);
-        records.extend(in_reach.map(|(&near, &item)| Record { near: depth(near), item }));
+        records.extend(in_reach.map(|(&near, &item)| cell.record(item, depth(near))));
         records.len() - before
     }
 
     /// Takes in what a cell holds, and returns how much that is.
     #[inline(always)]
-    fn gather(&mut self, lists: &CellLists, cell: usize) -> usize {
+    fn gather(&mut self, cell: &Cell<'_>) -> usize {
         let Entries { near, far, items, .. } = self;
         if near.is_empty() {
             (*near, *far, *items) = (vec![-1; FEW], vec![-1; FEW], vec![Item::default(); FEW]);
@@ -111,7 +131,7 @@ impl Entries {
         near[..FEW].fill(-1);
         far[..FEW].fill(-1);
         let mut count = 0;
-        for entry in lists.of(cell) {
+        for entry in cell.lists.of(cell.place) {
             debug_assert!(entry.near >= entry.far, "an interval");
             if count == near.len() {
                 near.extend([-1; FEW]);
@@ -124,13 +144,31 @@ impl Entries {
         count
     }
 
-    /// The nearest surface of what is no nearer than `from`, among so many entries.
+    /// The nearest surface of what is no nearer than `from`, among so many entries. Where nothing is certain, its entries are looked at again.
     #[inline(always)]
-    fn surface(&self, count: usize, from: i32) -> Surface {
-        match count {
+    fn surface(&mut self, cell: &Cell<'_>, count: usize, from: i32) -> Surface {
+        let found = match count {
             5..=FEW => surface::<FEW>(&self.near[..FEW], &self.far[..FEW], &self.items[..FEW], from),
             _ => surface::<0>(&self.near[..count], &self.far[..count], &self.items[..count], from),
+        };
+        if found.is_certain { found } else { self.look_again(cell, count, found) }
+    }
+
+    /// As long as that leaves none of them in doubt.
+    fn look_again(&mut self, cell: &Cell<'_>, count: usize, found: Surface) -> Surface {
+        let mut covers = 0;
+        for (&near, item) in self.near[..count].iter().zip(&mut self.items) {
+            if near >= found.far && near <= found.near {
+                if item.has(Item::DOUBTS) {
+                    *item = cell.tile.look_again(*item, cell.at);
+                    if item.has(Item::DOUBTS) {
+                        return found;
+                    }
+                }
+                covers += item.flags() & Item::COVERS;
+            }
         }
+        Surface { covers, is_certain: true, ..found }
     }
 }
 
@@ -164,7 +202,7 @@ fn surface<const COUNT: usize>(near: &[i32], far: &[i32], items: &[Item], from: 
         flags |= of_it;
         next = next.max(if near < end { near } else { 0 });
     }
-    let is_certain = flags & (Item::IRREGULAR | Item::MAY_COVER) == 0;
+    let is_certain = flags & Item::DOUBTS == 0;
     Surface { near: nearest, far: end, covers, is_certain, next }
 }
 
@@ -179,7 +217,7 @@ fn depth(bits: i32) -> f32 {
     f32::from_bits(bits as u32)
 }
 
-/// Makes header and list of a cell. What is withheld from it has at most the w of the horizon.
+/// Makes header and list of a cell.
 ///
 /// Entries whose intervals of w overlap, directly or through others, are one surface. If no irregular edge of it meets
 /// the cell, as many of its triangles cover each direction as cover the centre: at a regular edge one takes over
@@ -189,36 +227,34 @@ fn depth(bits: i32) -> f32 {
 /// All is formed before anything is pruned.
 #[inline(always)]
 pub(super) fn certify(
-    lists: &CellLists,
-    cell: usize,
-    horizon: f32,
+    cell: &Cell<'_>,
     entries: &mut Entries,
     records: &mut Vec<Record>,
     kinds: &mut Kinds,
 ) -> (Header, Run) {
-    if lists.is_empty(cell) {
+    if cell.lists.is_empty(cell.place) {
         return (Header::EMPTY, Run::default());
     }
     kinds.touched += 1;
-    if let Some(only) = lists.only(cell) {
-        let run = Run { start: records.len() as u32, length: 1 };
-        records.push(Record { near: only.near, item: only.item });
-        let flags = only.item.flags() & (Item::COVERS | Item::MAY_COVER | Item::IRREGULAR);
-        let is_certain = flags == Item::COVERS && only.far > horizon;
+    let (horizon, start) = (cell.horizon, records.len() as u32);
+    if let Some(only) = cell.lists.only(cell.place) {
+        let in_doubt = only.item.has(Item::DOUBTS);
+        let item = if in_doubt { cell.tile.look_again(only.item, cell.at) } else { only.item };
+        records.push(cell.record(item, only.near));
+        let is_certain = item.flags() & (Item::COVERS | Item::DOUBTS) == Item::COVERS && only.far > horizon;
         kinds.once += u64::from(is_certain);
         let header = match is_certain {
             true => Header { lit: horizon, dark: only.far },
             false => Header { lit: only.near, dark: 0.0 },
         };
-        return (header, run);
+        return (header, Run { start, length: 1 });
     }
-    let count = entries.gather(lists, cell);
-    let first = entries.surface(count, i32::MAX);
-    let start = records.len() as u32;
+    let count = entries.gather(cell);
+    let first = entries.surface(cell, count, i32::MAX);
     if first.is_certain && first.covers == 1 && depth(first.far) > horizon {
         kinds.once += 1;
         let header = Header { lit: larger(depth(first.next), horizon), dark: depth(first.far) };
-        let length = entries.append(count, first.far, records);
+        let length = entries.append(cell, count, first.far, records);
         // Nobody asks for an order here who is not answered by the header, or hardly anybody.
         records[start as usize..].iter_mut().for_each(|record| record.near = depth(first.near));
         return (header, Run { start, length: length as u32 });
@@ -235,9 +271,9 @@ pub(super) fn certify(
         if surface.next == 0 || depth(surface.far) <= horizon {
             break;
         }
-        surface = entries.surface(count, surface.next);
+        surface = entries.surface(cell, count, surface.next);
     }
-    let length = entries.append(count, end, records);
+    let length = entries.append(cell, count, end, records);
     if length > UNSORTED {
         records[start as usize..].sort_unstable_by_key(|record| Reverse(bits(record.near)));
     }
@@ -246,16 +282,34 @@ pub(super) fn certify(
 
 #[cfg(test)]
 mod tests {
+    use super::super::projection::Projector;
     use super::*;
+    use crate::scene::SceneBuilder;
+    use crate::shadow::light_buffer::cube::Face;
+    use glam::Vec3;
 
     /// Header of a cell with entries of w from `far` to `near`, and the length of its list.
     fn header(entries: &[(f32, f32, u32)], horizon: f32) -> (Header, u32) {
         let mut lists = CellLists::new();
+        let (scene, projector) = (SceneBuilder::new("none").finish(), Projector::new(Vec3::ZERO, 8));
+        let numbers: Vec<u32> = (0..entries.len() as u32).map(|number| 100 - number).collect();
+        let tile = TileTriangles {
+            scene: &scene,
+            projector: &projector,
+            projected: &[],
+            face: Face::ALL[0],
+            numbers: &numbers,
+            vertices: &[],
+            irregular: &[],
+        };
         for (number, &(near, far, flags)) in (0..).zip(entries) {
-            lists.enter(0, Item::new(number, flags), near, far);
+            // In space, where nobody looks again.
+            lists.enter(0, Item::new(number, flags | Item::IN_SPACE), near, far);
         }
         let (mut scratch, mut records) = (Entries::default(), Vec::new());
-        let (header, run) = certify(&lists, 0, horizon, &mut scratch, &mut records, &mut Kinds::default());
+        let cell = Cell { tile: &tile, lists: &lists, place: 0, at: [0, 0], horizon };
+        let (header, run) = certify(&cell, &mut scratch, &mut records, &mut Kinds::default());
+        assert!(records.iter().all(|record| record.item.triangle() > 90), "numbers of the scene");
         assert_eq!(run.length as usize, records.len());
         assert!(records.len() <= UNSORTED || records.is_sorted_by(|a, b| a.near >= b.near));
         (header, run.length)

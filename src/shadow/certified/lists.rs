@@ -3,18 +3,20 @@
 use super::bins::{Bins, Budget, Caller};
 use super::block::{Patch, Seen, Sixteen, any_above};
 use super::cell_lists::{CellLists, Item};
-use super::certificate::{Entries, Header, Kinds, Record, Run, certify};
+use super::certificate::{Cell, Entries, Header, Kinds, Record, Run, certify};
 use super::corners::{Corners, LANES};
 use super::edges::Edges;
 use super::facing::{Facing, exactly};
 use super::projection::{Projected, Projector};
 use super::receivers::Horizon;
+use super::second_look::TileTriangles;
 use super::small::Patches;
 use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::masks::Bits;
 use crate::scene::Scene;
+use crate::shadow::light_buffer::cube::Face;
 
 /// All that the lists of tiles are made of.
 pub(super) struct Lister<'a> {
@@ -31,9 +33,10 @@ pub(super) struct Lister<'a> {
 /// Triangles of at most so many cells across are entered cell by cell.
 const MOST_TINY: u32 = 3;
 
-/// Up to sixteen triangles of a tile: their numbers, their edges that are irregular, and how they face the light.
+/// Up to sixteen triangles of a tile: the number of the first, their edges that are irregular, and how they face the light.
 struct Triangles<'a> {
-    numbers: &'a [u32],
+    first: u32,
+    count: usize,
     irregular: &'a [u8],
     of_lanes: [Facing; LANES],
 }
@@ -145,9 +148,10 @@ impl Lister<'_> {
         }
         for large in &large {
             scratch.triangles.push(self.scene.triangles[large.triangle as usize].vertices);
+            scratch.numbers.push(large.triangle);
             scratch.facing.push(large.facing);
         }
-        let Scratch { triangles, numbers, facing, irregular, corners, patches, edges, cells, .. } = scratch;
+        let Scratch { triangles, facing, irregular, corners, patches, edges, cells, .. } = scratch;
         edges.find(triangles, facing, irregular);
         cells.clear();
         let (_, corner) = self.grid.corner(tile);
@@ -159,18 +163,15 @@ impl Lister<'_> {
             let mut of_lanes = [Facing::Nothing; LANES];
             of_lanes[..count].copy_from_slice(&facing[first..first + count]);
             patches.fill(&self.projector, of_sixteen, &of_lanes);
-            let triangles = Triangles {
-                numbers: &numbers[first..first + count],
-                irregular: &irregular[first..],
-                of_lanes,
-            };
+            let triangles =
+                Triangles { first: first as u32, count, irregular: &irregular[first..], of_lanes };
             let there = self.enter_tiny(set, &triangles, &seen, patches, cells);
             for lane in Bits(there) {
                 let patch = patches.patch(lane, irregular[first + lane]);
-                self.enter_small(set, numbers[first + lane], &patch, &seen, cells);
+                self.enter_small(set, (first + lane) as u32, &patch, &seen, cells);
             }
         }
-        for (large, &irregular) in large.into_iter().zip(&irregular[small..]) {
+        for (number, (large, &irregular)) in (small..).zip(large.into_iter().zip(&irregular[small..])) {
             let flags = if large.is_on_one_side { 0 } else { Item::IN_SPACE };
             for place in (0..AREA as usize).step_by(BLOCK) {
                 let (x, y) = (place as u32 / 16 % 2, place as u32 / 32);
@@ -180,7 +181,7 @@ impl Lister<'_> {
                 if any_above(keys, key) {
                     let mut sixteen = Sixteen::default();
                     let live = sixteen.fill(set, &patch, block, keys, key);
-                    cells.enter_block(place, large.triangle, flags, &sixteen, live);
+                    cells.enter_block(place, number as u32, flags, &sixteen, live);
                 }
             }
         }
@@ -198,10 +199,10 @@ impl Lister<'_> {
         patches: &Patches,
         cells: &mut CellLists,
     ) -> u32 {
-        let Triangles { numbers, irregular, of_lanes: facing } = triangles;
+        let Triangles { first, count, irregular, of_lanes: facing } = triangles;
         let (mut tiny, mut others, mut most) = (0u32, 0u32, [0, 0]);
         let mut of_lanes = [0; LANES];
-        for lane in 0..numbers.len() {
+        for lane in 0..*count {
             of_lanes[lane] = u32::from(irregular[lane]);
             let [width, height] = patches.size(lane);
             if facing[lane] == Facing::Nothing {
@@ -219,7 +220,7 @@ impl Lister<'_> {
             for x in 0..most[0] {
                 let live = patches.in_cell(set, [x, y], seen, &of_lanes, &mut sixteen, &mut places);
                 for lane in Bits(live & tiny) {
-                    let item = Item::new(numbers[lane], sixteen.flags[lane]);
+                    let item = Item::new(first + lane as u32, sixteen.flags[lane]);
                     cells.enter(places[lane] as usize, item, sixteen.near[lane], sixteen.far[lane]);
                 }
             }
@@ -272,11 +273,28 @@ fn list_body(
         let first = i * AREA as usize;
         lister.enter(set, tile, first_cell + first, scratch);
         part.entries += scratch.cells.count() as u64;
-        for cell in 0..AREA as usize {
-            let horizon = lister.horizon.of(first_cell + first + cell);
-            let Scratch { cells, entries, .. } = scratch;
-            (part.headers[first + cell], part.runs[first + cell]) =
-                certify(cells, cell, horizon, entries, &mut part.records, &mut part.kinds);
+        let (side, corner) = lister.grid.corner(tile);
+        let Scratch { triangles, numbers, irregular, cells, entries, .. } = scratch;
+        let of_tile = TileTriangles {
+            scene: lister.scene,
+            projector: &lister.projector,
+            projected: lister.projected,
+            face: Face::ALL[side as usize],
+            numbers,
+            vertices: triangles,
+            irregular,
+        };
+        for place in 0..AREA as usize {
+            let [column, row] = TileGrid::cell(place as u32);
+            let cell = Cell {
+                tile: &of_tile,
+                lists: cells,
+                place,
+                at: [corner[0] + column, corner[1] + row],
+                horizon: lister.horizon.of(first_cell + first + place),
+            };
+            (part.headers[first + place], part.runs[first + place]) =
+                certify(&cell, entries, &mut part.records, &mut part.kinds);
         }
         let records = part.records.capacity() * size_of::<Record>();
         let scratch_bytes = scratch.bytes();

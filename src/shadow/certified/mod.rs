@@ -34,6 +34,7 @@ mod making;
 mod open;
 mod projection;
 mod receivers;
+mod second_look;
 mod small;
 mod survey;
 mod tiles;

@@ -54,6 +54,12 @@ impl TileGrid {
     pub fn place(x: u32, y: u32) -> u32 {
         (y & 4) << 3 | (x & 4) << 2 | (y & 3) << 2 | (x & 3)
     }
+
+    /// Column and row of a place in its tile.
+    #[inline(always)]
+    pub fn cell(place: u32) -> [u32; 2] {
+        [place & 3 | place >> 2 & 4, place >> 2 & 3 | place >> 3 & 4]
+    }
 }
 
 /// Where the cells of each tile are: tiles get their place when somebody first asks for it.
@@ -120,6 +126,10 @@ mod tests {
         assert_eq!(places, (0..AREA).collect());
         assert_eq!(TileGrid::place(4, 0), 16);
         assert_eq!(TileGrid::place(3, 3), 15);
+        for place in 0..AREA {
+            let [x, y] = TileGrid::cell(place);
+            assert_eq!(TileGrid::place(x, y), place);
+        }
     }
 
     #[test]
