@@ -170,6 +170,13 @@ impl<'b> Bins<'b> {
         }
     }
 
+    /// How many callers a tile has.
+    pub fn callers_of(&self, tile: u32) -> usize {
+        let mut count = 0;
+        self.each_of(tile, |_| count += 1);
+        count
+    }
+
     /// How many callers all tiles have.
     pub fn callers(&self) -> usize {
         let count = |head: &Head| head.count as usize;

@@ -2,12 +2,13 @@
 
 use super::answer::{Answering, Asked, QUERIES, sum};
 use super::automatic;
-use super::bins::{Bins, Budget, touched};
+use super::bins::{Budget, touched};
 use super::certificate::{Header, Record, Run};
-use super::lists::Lister;
+use super::layers::is_crowded;
+use super::levels::{FINER, Levels};
 use super::making::Lists;
 use super::projection::{Projected, Projector};
-use super::receivers::{CHUNK, Horizon, OPEN, Whereabouts};
+use super::receivers::{CHUNK, Horizon};
 use super::survey::Cast;
 use super::tiles::{AREA, TileGrid};
 use super::{Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
@@ -21,6 +22,12 @@ use rayon::prelude::*;
 /// The resolution at which is looked where triangles lie.
 const FEW_CELLS: u32 = 256;
 
+/// Levels of cells where nobody says how many cells there are to be.
+const LEVELS: usize = 2;
+
+/// Resolutions are looked at in these steps.
+const STEP: u32 = 64;
+
 /// Fewer than this save no memory that would be worth it.
 const LEAST_CELLS: u32 = 16;
 
@@ -30,14 +37,12 @@ const MOST_A_TRIANGLE: u64 = 64;
 /// Headers and lists of all cells that a light's triangles lie in.
 pub struct Kept<'a> {
     certified: Certified<'a>,
-    projector: Projector,
     space: LightSpace,
     cast: Cast,
     /// No coordinate of a triangle is larger.
     size: f32,
-    grid: TileGrid,
-    /// The first cell of each tile of the grid, or [`OPEN`] where nothing lies.
-    tiles: Vec<u32>,
+    levels: Levels,
+    /// The scene's vertices, on the finest cells.
     projected: Vec<Projected>,
     lists: Lists,
     work: Work,
@@ -57,10 +62,11 @@ impl<'a> Certified<'a> {
     pub fn keep(self, resolution: u32) -> Result<Kept<'a>> {
         let _floats = StandardFloats::new();
         let memory = self.checked(resolution, 0)?;
-        self.keep_at_most(resolution, memory)
+        self.keep_at_most(resolution, 1, memory)
     }
 
-    /// The same with as many cells as are of use and need no more than so many bytes, if that can be.
+    /// The same with as many cells as are of use and need no more than so many bytes, if that can be: large ones, and small ones
+    /// where many triangles lie.
     ///
     /// # Errors
     /// As [`keep`](Certified::keep), if the fewest cells need too much.
@@ -69,7 +75,7 @@ impl<'a> Certified<'a> {
         let memory = self.checked(1, 0)?;
         let mut resolution = self.resolution_within(bytes, memory);
         loop {
-            let kept = self.keep_at_most(resolution, memory);
+            let kept = self.keep_at_most(resolution, LEVELS, memory);
             let is_small = kept.as_ref().is_ok_and(|kept| kept.bytes() as u64 <= bytes);
             if is_small || resolution <= LEAST_CELLS {
                 return kept;
@@ -80,8 +86,8 @@ impl<'a> Certified<'a> {
         }
     }
 
-    /// The most cells, in steps of [`FEW_CELLS`], for which so many bytes are to be expected: what a few cells show of the part of the
-    /// directions in which triangles lie, a header each, and records of triangles in so many cells as they are wide and high.
+    /// The most cells for which so many bytes are to be expected: what a few cells show of the part of the directions in which triangles
+    /// lie, and many of them, a header each, records of triangles in so many cells as they are wide and high, and vertices.
     fn resolution_within(&self, bytes: u64, memory: MemoryLimit) -> u32 {
         let projector = Projector::new(self.light, FEW_CELLS);
         let grid = TileGrid::new(FEW_CELLS);
@@ -89,68 +95,56 @@ impl<'a> Certified<'a> {
         let mut survey = self.survey(projector, grid, &horizon, &projected);
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let Some(bins) = self.bins(&mut survey, &budget) else { return LEAST_CELLS };
-        let tiles = touched(&bins, &grid).count() as u64;
+        // Of small cells the crowded tiles have as many as all would, if the others had them.
+        let tiles = touched(&bins, &grid).map(|tile| match is_crowded(&bins, tile) {
+            true => f64::from(FINER * FINER),
+            false => 1.0,
+        });
+        let tiles: f64 = tiles.sum();
         let triangles = self.scene.triangles.len() as u64;
-        let a_cell = (size_of::<Header>() + size_of::<Run>() + size_of::<Record>()) as u64;
+        let a_cell = (size_of::<Header>() + size_of::<Run>() + size_of::<Record>()) as f64;
         let size = self.size_of_triangles();
         let expected = |resolution: u32| {
-            let finer = u64::from(resolution / FEW_CELLS).pow(2);
+            let large = f64::from(resolution) / f64::from(FINER * FEW_CELLS);
             let across = size * f64::from(resolution) / f64::from(automatic::CELLS);
             let of_records = triangles as f64 * (2.0 + across) * size_of::<Record>() as f64;
-            tiles * u64::from(AREA) * finer * a_cell + of_records as u64
+            (tiles * f64::from(AREA) * large * large * a_cell + of_records) as u64 + self.fixed_bytes() as u64
         };
         let is_enough = |resolution: &u32| {
             expected(*resolution) <= bytes && u64::from(*resolution).pow(2) <= MOST_A_TRIANGLE * triangles
         };
-        let steps = (1..=MOST_CELLS / FEW_CELLS).map(|step| step * FEW_CELLS);
+        let steps = (FEW_CELLS / STEP..=MOST_CELLS / STEP).map(|step| step * STEP);
         steps.rev().find(is_enough).unwrap_or(FEW_CELLS)
     }
 
     /// A limit that somebody set is kept by refusing, and that of all lists by taking fewer cells.
-    fn keep_at_most(&self, resolution: u32, memory: MemoryLimit) -> Result<Kept<'a>> {
-        self.with_fewer_cells(resolution, |cells| match self.keep_at(cells, memory)? {
+    fn keep_at_most(&self, resolution: u32, levels: usize, memory: MemoryLimit) -> Result<Kept<'a>> {
+        self.with_fewer_cells(resolution, |cells| match self.keep_at(cells, levels, memory)? {
             None if memory.left() <= MOST_BYTES => Err(memory.exceeded(what(cells))),
             kept => Ok(kept),
         })
     }
 
     /// `None` if lists are too long.
-    fn keep_at(&self, resolution: u32, memory: MemoryLimit) -> Result<Option<Kept<'a>>> {
-        let grid = TileGrid::new(resolution);
-        let of_tiles = grid.count() * (size_of::<u32>() + size_of::<u64>());
-        let memory = memory.beside(what(resolution), of_tiles as u64)?;
-        let projector = Projector::new(self.light, resolution);
-        let projected = self.projected(&projector);
-        let horizon = Horizon::endless(&grid);
-        let mut survey = self.survey(projector, grid, &horizon, &projected);
+    fn keep_at(&self, resolution: u32, levels: usize, memory: MemoryLimit) -> Result<Option<Kept<'a>>> {
+        let resolution = resolution.next_multiple_of(FINER.pow(levels as u32 - 1));
+        // Projections of all but one level are needed while lists are made.
+        let of_levels = (levels - 1) * self.scene.vertices.len() * size_of::<Projected>()
+            + TileGrid::new(resolution).count() * (size_of::<u32>() + size_of::<u64>());
+        let memory = memory.beside(what(resolution), of_levels as u64)?;
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
-        let Some(bins) = self.bins(&mut survey, &budget) else { return Ok(None) };
-        let stored: Vec<u32> = touched(&bins, &grid).collect();
-        let cells = stored.len() as u64 * u64::from(AREA);
-        let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
-        let of_cells = cells * (size_of::<Header>() + size_of::<Run>()) as u64;
-        let left = memory.beside(what(resolution), of_cells + bin_bytes as u64)?.left();
-        let budget = Budget::new(left.min(MOST_BYTES) as usize);
-        let mut tiles = vec![OPEN; grid.count()];
-        for (first, &tile) in (0..).step_by(AREA as usize).zip(&stored) {
-            tiles[tile as usize] = first;
-        }
-        let lister = Lister {
-            scene: self.scene,
-            projector,
-            grid,
-            horizon: &horizon,
-            projected: &projected,
-            bins: &bins,
-            budget: &budget,
+        let Some(layers) = self.layers(resolution, levels, &budget) else { return Ok(None) };
+        let (bin_bytes, cast) = (layers.bin_bytes(), layers.cast);
+        let needed = layers.cell_bytes() + bin_bytes;
+        let left = memory.beside(what(resolution), needed as u64)?.left();
+        let Some(lists) = self.lists_of(&layers, &Budget::new(left.min(MOST_BYTES) as usize)) else {
+            return Ok(None);
         };
-        let Some(lists) = self.lists(&lister, &stored) else { return Ok(None) };
-        let kept = size_of_val(&tiles[..]) + size_of_val(&projected[..]) + lists.bytes();
-        let work = Work { bytes: (kept + bin_bytes) as u64, ..lists.work(resolution) };
-        drop(bins);
+        let (levels, projected) = layers.into_finest();
+        let kept = levels.bytes() + size_of_val(&projected[..]) + lists.bytes();
+        let work = Work { bytes: (kept + bin_bytes) as u64, ..lists.work(levels.projector.resolution) };
         let (certified, space, size) = (*self, LightSpace::from(self.light), self.size());
-        let cast = survey.cast;
-        Ok(Some(Kept { certified, projector, space, cast, size, grid, tiles, projected, lists, work }))
+        Ok(Some(Kept { certified, space, cast, size, levels, projected, lists, work }))
     }
 }
 
@@ -170,7 +164,7 @@ impl Kept<'_> {
 
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.tiles[..]) + size_of_val(&self.projected[..]) + self.lists.bytes()
+        self.levels.bytes() + size_of_val(&self.projected[..]) + self.lists.bytes()
     }
 
     fn some(&self, points: Points<'_>, occluded: &mut [bool]) -> Counters {
@@ -179,24 +173,18 @@ impl Kept<'_> {
         let asked = Asked {
             certified: self.certified,
             cast: self.cast,
-            projector: &self.projector,
+            projector: &self.levels.projector,
             space: &self.space,
             size: self.size,
             projected: &self.projected,
             lists: &self.lists,
         };
         let mut answering = Answering::new(&asked);
-        let (mut cells, mut places, mut depths) = ([0; CHUNK], [0; CHUNK], [0.0; CHUNK]);
+        let (mut cells, mut depths) = ([0; CHUNK], [0.0; CHUNK]);
         for (i, chunk) in points.chunks(CHUNK).enumerate() {
             let first = i * CHUNK;
-            let cells = &mut cells[..chunk.len()];
-            let (places, depths) = (&mut places[..chunk.len()], &mut depths[..chunk.len()]);
-            let whereabouts = Whereabouts { tiles: cells, places, depths };
-            whereabouts.find(set, &self.projector, &self.grid, scene, chunk);
-            for (cell, &place) in cells.iter_mut().zip(&*places) {
-                let first = self.tiles.get(*cell as usize).copied().unwrap_or(OPEN);
-                *cell = if first == OPEN { OPEN } else { first + u32::from(place) };
-            }
+            let (cells, depths) = (&mut cells[..chunk.len()], &mut depths[..chunk.len()]);
+            self.levels.find(set, scene, chunk, cells, depths);
             answering.add(first, chunk, cells, depths, &mut occluded[first..first + chunk.len()]);
         }
         answering.finish(points, occluded)

@@ -30,6 +30,13 @@ pub(super) struct Lister<'a> {
     pub budget: &'a Budget,
 }
 
+/// A tile that has cells: its number in the grid of its level, for each of which there is a [`Lister`].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stored {
+    pub level: u32,
+    pub tile: u32,
+}
+
 /// Triangles of at most so many cells across are entered cell by cell.
 const MOST_TINY: u32 = 3;
 
@@ -260,13 +267,14 @@ impl Lister<'_> {
 #[inline(always)]
 fn list_body(
     set: InstructionSet,
-    lister: &Lister<'_>,
-    tiles: &[u32],
+    listers: &[Lister<'_>],
+    tiles: &[Stored],
     first_cell: usize,
     scratch: &mut Scratch,
     part: &mut Part<'_>,
 ) {
-    for (i, &tile) in tiles.iter().enumerate() {
+    for (i, &Stored { level, tile }) in tiles.iter().enumerate() {
+        let lister = &listers[level as usize];
         if lister.bins.iter().all(|bins| bins.is_empty(tile)) {
             continue;
         }
@@ -309,8 +317,8 @@ fn list_body(
 for_instruction_sets! {
     /// Makes headers and lists of tiles whose cells follow each other, the first of which is `first_cell`.
     pub(super) fn list = list_body, (
-        lister: &Lister<'_>,
-        tiles: &[u32],
+        listers: &[Lister<'_>],
+        tiles: &[Stored],
         first_cell: usize,
         scratch: &mut Scratch,
         part: &mut Part<'_>,

@@ -2,7 +2,7 @@
 
 use super::bins::{Bins, Budget};
 use super::certificate::{Header, Kinds, Record, Run};
-use super::lists::{self, Lister, Part, Scratch};
+use super::lists::{self, Lister, Part, Scratch, Stored};
 use super::survey::{self, Survey};
 use super::tiles::AREA;
 use super::{Certified, Work, is_plain};
@@ -64,6 +64,11 @@ impl Lists {
         }
     }
 
+    /// Gives back what was allotted and is not needed.
+    pub fn shrink(&mut self) {
+        self.records.par_iter_mut().for_each(Vec::shrink_to_fit);
+    }
+
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
         let records: usize = self.records.iter().map(Vec::capacity).sum();
@@ -114,7 +119,7 @@ impl Certified<'_> {
     }
 
     /// Lists of all cells of some tiles, or `None` if they are too long.
-    pub(super) fn lists(&self, lister: &Lister<'_>, tiles: &[u32]) -> Option<Lists> {
+    pub(super) fn lists(&self, listers: &[Lister<'_>], tiles: &[Stored]) -> Option<Lists> {
         let cells = tiles.len() * AREA as usize;
         // On all threads, since the pages are new.
         let mut headers: Vec<Header> = repeat_n(Header::EMPTY, cells).collect();
@@ -127,7 +132,7 @@ impl Certified<'_> {
             .map_init(Scratch::new, |scratch, (part, ((headers, runs), tiles))| {
                 let _floats = StandardFloats::new();
                 let mut of_part = Part::new(headers, runs);
-                lists::list(self.set, lister, tiles, part * CELLS, scratch, &mut of_part);
+                lists::list(self.set, listers, tiles, part * CELLS, scratch, &mut of_part);
                 of_part
             })
             .collect();
@@ -140,7 +145,8 @@ impl Certified<'_> {
             entries += part.entries;
             records.push(part.records);
         }
-        let sides = tiles.iter().map(|&tile| lister.grid.corner(tile).0 as u8).collect();
+        let side = |stored: &Stored| listers[stored.level as usize].grid.corner(stored.tile).0 as u8;
+        let sides = tiles.iter().map(side).collect();
         Some(Lists { headers, sides, runs, records, kinds, entries })
     }
 }

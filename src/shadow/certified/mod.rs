@@ -29,6 +29,8 @@ mod facing;
 mod headers;
 mod kept;
 mod large;
+mod layers;
+mod levels;
 mod lists;
 mod making;
 mod open;
@@ -107,10 +109,10 @@ pub fn is_plain(scene: &Scene, primitive: PrimitiveIndex) -> bool {
         && scene.masked(primitive).is_none()
 }
 
-/// The memory that cells that are kept may need if nobody says how many there are to be: 32 MiB and 128 bytes a triangle, twice of what
-/// production hierarchies take.
+/// The memory that cells that are kept may need if nobody says how many there are to be: 16 MiB and 64 bytes a triangle, no more than
+/// production hierarchies take for large scenes.
 pub fn usual_bytes(scene: &Scene) -> u64 {
-    (32 << 20) + 128 * scene.triangles.len() as u64
+    (16 << 20) + 64 * scene.triangles.len() as u64
 }
 
 impl Certified<'_> {

@@ -9,7 +9,7 @@ use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::fetch::fetch;
 use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
-use crate::shadow::light_buffer::cells::Cells;
+use crate::shadow::light_buffer::cells::{Cells, Located};
 use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -25,7 +25,7 @@ pub(super) const OPEN: u32 = u32::MAX;
 const MARGIN: f32 = 63.0 / 64.0;
 
 /// The most that w may be wrong by, as a share of itself. Far below what the margin leaves.
-const MOST_ERROR: f32 = 1.0 / 512.0;
+pub(super) const MOST_ERROR: f32 = 1.0 / 512.0;
 
 /// For each cell the w beyond which nobody asks, as a key that is 0 where nobody does and grows with the distance.
 pub(super) struct Horizon {
@@ -53,6 +53,13 @@ impl Horizon {
     /// Nothing is beyond it.
     pub fn endless(grid: &TileGrid) -> Horizon {
         Horizon { cells: None, tiles: vec![u32::MAX; grid.count()] }
+    }
+
+    /// Nothing is beyond it in these tiles, and nobody asks in any other.
+    pub fn endless_in(grid: &TileGrid, tiles: &[u32]) -> Horizon {
+        let mut of_tiles = vec![0; grid.count()];
+        tiles.iter().for_each(|&tile| of_tiles[tile as usize] = u32::MAX);
+        Horizon { cells: None, tiles: of_tiles }
     }
 
     /// The key of a w, not negative.
@@ -154,7 +161,13 @@ impl Whereabouts<'_> {
             }
         }
         for i in open[..count].iter().map(|&i| i as usize) {
-            (tiles[i], places[i], depths[i]) = locate_exactly(projector, grid, scene, &points.exact()[i]);
+            (tiles[i], places[i], depths[i]) = match locate_exactly(projector, scene, &points.exact()[i]) {
+                Some((at, w)) => {
+                    let place = TileGrid::place(at.column, at.row) as u8;
+                    (grid.tile(at.side as u32, at.column, at.row), place, w)
+                }
+                None => (OPEN, 0, f32::NAN),
+            };
         }
     }
 }
@@ -260,24 +273,19 @@ const PORTION: usize = 64;
 /// How far ahead points are fetched.
 const AHEAD: usize = 4 * PORTION;
 
-/// Tile, place and w of a point by its exact position; [`OPEN`] if that is the light.
+/// Where a point is by its exact position, and its w; `None` if that is the light.
 #[cold]
-fn locate_exactly(
+pub(super) fn locate_exactly(
     projector: &Projector,
-    grid: &TileGrid,
     scene: &Scene,
     point: &SurfacePoint,
-) -> (u32, u8, f32) {
+) -> Option<(Located, f32)> {
     let space = LightSpace::from(projector.light);
     let query = PreciseQuery::new(&space, point.position, || point.exact(scene));
-    let Some((at, _)) = Cells::Cube.locate(&space, point.position, projector.resolution, &query) else {
-        return (OPEN, 0, f32::NAN);
-    };
+    let (at, _) = Cells::Cube.locate(&space, point.position, projector.resolution, &query)?;
     let w = (1.0 / at.z_low) as f32;
     // Together with its rounding that is within 3 roundoffs.
     let is_exact = at.z_high <= at.z_low * (1.0 + 1e-7) && w > 8.7e-19 && w < 1.1e18;
     let is_known = is_exact && point.primitive().is_some();
-    let tile = grid.tile(at.side as u32, at.column, at.row);
-    let place = TileGrid::place(at.column, at.row) as u8;
-    (tile, place, if is_known { w } else { f32::NAN })
+    Some((at, if is_known { w } else { f32::NAN }))
 }

@@ -3,7 +3,7 @@
 use super::answer::{Asked, QUERIES, sum};
 use super::bins::{Bins, Budget};
 use super::certificate::{Header, Run};
-use super::lists::Lister;
+use super::lists::{Lister, Stored};
 use super::projection::Projector;
 use super::receivers::Filed;
 use super::{Certified, Counters, MOST_BYTES, Work};
@@ -51,7 +51,8 @@ impl Certified<'_> {
         let bins = self.bins(&mut survey, &budget)?;
         let lister =
             Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
-        let lists = self.lists(&lister, &filed.tiles.stored())?;
+        let stored: Vec<_> = filed.tiles.stored().into_iter().map(|tile| Stored { level: 0, tile }).collect();
+        let lists = self.lists(&[lister], &stored)?;
         let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
         let mut work = Work {
             bytes: (lists.bytes() + bin_bytes + filed.tiles.cells() * size_of::<u32>()) as u64,
