@@ -74,6 +74,8 @@ fn every_exact_tester_is_right_in_every_case_at_every_resolution() {
                 let answers = ask(entry, &asked, setting(resolution));
                 asked.assert_equal(&answers, &truth, &format!("{} at R = {resolution}", entry.name));
             }
+            let answers = ask(entry, &asked, Setting::of(Resolution::Auto));
+            asked.assert_equal(&answers, &truth, &format!("{} at R = auto", entry.name));
         }
         for resolution in RESOLUTIONS {
             let setting = Setting { culling: Culling::ClosedSolids, ..setting(resolution) };

@@ -8,7 +8,7 @@ use lightbuffer::measure::{Question, answer};
 use lightbuffer::scene::Dropped;
 use lightbuffer::shadow::brute_force::BruteForce;
 use lightbuffer::shadow::exact::Arbiter;
-use lightbuffer::shadow::{BuildInput, Crossings, SceneIndex, ShadowTester};
+use lightbuffer::shadow::{BuildInput, Crossings, Resolution, SceneIndex, ShadowTester};
 
 #[test]
 fn case_07_takes_as_many_tests_as_one_triangle_would() {
@@ -35,7 +35,7 @@ fn case_07_at_the_finest_resolutions() {
     let situations = case(7).situations();
     let truth = &truths(&situations)[0];
     for entry in others() {
-        for resolution in [512, 2048] {
+        for resolution in [512, 2048].map(Resolution::Cells) {
             let way = Way { resolution, ..Way::of(Who::Other(entry, InstructionSet::best())) };
             assert_same(&situations[0], &way.to_string(), &ask(&way, &situations[0]), truth);
         }

@@ -35,7 +35,7 @@ pub enum Who {
 pub struct Way {
     pub who: Who,
     pub receivers: Receivers,
-    pub resolution: u32,
+    pub resolution: Resolution,
     pub culling: Culling,
     pub volumes: VolumeThreshold,
     pub coherence: ObjectCoherence,
@@ -47,7 +47,7 @@ impl Way {
         Way {
             who,
             receivers: Receivers::Anywhere,
-            resolution: 64,
+            resolution: Resolution::Cells(64),
             culling: Culling::Off,
             volumes: VolumeThreshold::Off,
             coherence: ObjectCoherence::Off,
@@ -61,7 +61,7 @@ impl Way {
 
     /// A light buffer of so many cells.
     pub const fn light_buffer(resolution: u32) -> Way {
-        Way { resolution, ..Way::of(Who::LightBuffer) }
+        Way { resolution: Resolution::Cells(resolution), ..Way::of(Who::LightBuffer) }
     }
 }
 
@@ -71,10 +71,10 @@ impl fmt::Display for Way {
             Who::Arbiter => write!(f, "exact")?,
             Who::BruteForce(set) => write!(f, "brute-force, {set:?}")?,
             Who::BoundingVolumes(set) => write!(f, "bounding-volumes, {set:?}")?,
-            Who::Other(entry, set) => write!(f, "{}, {set:?}, at R = {}", entry.name, self.resolution)?,
+            Who::Other(entry, set) => write!(f, "{}, {set:?}, at R = {:?}", entry.name, self.resolution)?,
             Who::LightBuffer => write!(
                 f,
-                "light buffer of 1986 at R = {}, culling {:?}, volumes {:?}, coherence {:?}",
+                "light buffer of 1986 at R = {:?}, culling {:?}, volumes {:?}, coherence {:?}",
                 self.resolution, self.culling, self.volumes, self.coherence
             )?,
         }
@@ -96,10 +96,13 @@ pub fn ways(situation: &Situation) -> Vec<Way> {
     for entry in others() {
         for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
             let resolutions = [1, 7, 64].into_iter().chain(situation.resolution);
+            let resolutions = resolutions.map(Resolution::Cells).chain([Resolution::Auto]);
             ways.extend(resolutions.map(|resolution| Way { resolution, ..Way::of(Who::Other(entry, set)) }));
         }
         let best = Who::Other(entry, InstructionSet::best());
-        ways.push(Way { resolution: 300, threads: 2, ..Way::of(best) });
+        for resolution in [Resolution::Cells(300), Resolution::Auto] {
+            ways.push(Way { resolution, threads: 2, ..Way::of(best) });
+        }
     }
     for &receivers in places {
         let buffer = |resolution| Way { receivers, ..Way::light_buffer(resolution) };
@@ -125,7 +128,8 @@ pub fn ways(situation: &Situation) -> Vec<Way> {
             ways.extend([buffer, Way { threads: 2, ..buffer }]);
             // Two threads on the best instructions alone: the buffers of 1986 in them take most of the time, and know none.
             for entry in others() {
-                let way = |set| Way { resolution, ..Way::of(Who::Other(entry, set)) };
+                let cells = Resolution::Cells(resolution);
+                let way = |set| Way { resolution: cells, ..Way::of(Who::Other(entry, set)) };
                 ways.extend(InstructionSet::ALL.into_iter().filter(|set| set.is_available()).map(way));
                 ways.push(Way { threads: 2, ..way(InstructionSet::best()) });
             }
@@ -149,7 +153,7 @@ fn every_resolution() -> bool {
 
 fn input<'a>(way: &Way, situation: &'a Situation, index: &'a SceneIndex) -> BuildInput<'a> {
     BuildInput {
-        resolution: Resolution::Cells(way.resolution),
+        resolution: way.resolution,
         receivers: way.receivers,
         culling: way.culling,
         bounding_volumes: way.volumes,

@@ -6,7 +6,7 @@ use super::place::{Place, direction};
 use super::recipe::{Aim, Recipe};
 use crate::geometry::LightPosition;
 use crate::random::Random;
-use crate::shadow::Receivers;
+use crate::shadow::{Receivers, Resolution};
 use glam::{DVec3, Vec3};
 
 /// What aims are made for.
@@ -19,6 +19,14 @@ pub struct Aims<'a> {
     resolutions: Vec<u32>,
 }
 
+/// Cells along an edge; of a small scene as many, if nobody says how many.
+fn cells(resolution: Resolution) -> u32 {
+    match resolution {
+        Resolution::Auto => 256,
+        Resolution::Cells(cells) => cells,
+    }
+}
+
 impl<'a> Aims<'a> {
     /// For a recipe that has all but its aims.
     pub fn new(recipe: &Recipe, place: &'a Place) -> Aims<'a> {
@@ -29,7 +37,7 @@ impl<'a> Aims<'a> {
             light: recipe.light,
             triangles: recipe.parts.iter().flat_map(|part| part.triangles.iter().copied()).collect(),
             middles: shapes.filter_map(|shape| shape.bounds()).map(middle).collect(),
-            resolutions: recipe.settings.iter().map(|settings| settings.resolution).collect(),
+            resolutions: recipe.settings.iter().map(|settings| cells(settings.resolution)).collect(),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::atomic::write_atomically;
 use crate::error::{Error, Place, Result};
 use crate::scene::formats;
 use crate::shadow::light_buffer::MOST_CELLS;
-use crate::shadow::{Culling, ObjectCoherence, Receivers, VolumeThreshold};
+use crate::shadow::{Culling, ObjectCoherence, Receivers, Resolution, VolumeThreshold};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -46,7 +46,9 @@ struct Document {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SettingsEntry {
-    resolution: u32,
+    /// Cells along an edge of the light buffer; as many as it takes by itself if that is missing.
+    #[serde(default)]
+    resolution: Option<u32>,
     #[serde(default)]
     cull_solids: bool,
     #[serde(default)]
@@ -143,7 +145,10 @@ impl Finding {
 impl SettingsEntry {
     fn of(settings: &Settings) -> SettingsEntry {
         SettingsEntry {
-            resolution: settings.resolution,
+            resolution: match settings.resolution {
+                Resolution::Auto => None,
+                Resolution::Cells(cells) => Some(cells),
+            },
             cull_solids: settings.culling == Culling::ClosedSolids,
             volume_threshold: match settings.bounding_volumes {
                 VolumeThreshold::Off => None,
@@ -157,12 +162,14 @@ impl SettingsEntry {
     }
 
     fn settings(&self) -> std::result::Result<Settings, String> {
-        if !(1..=MOST_CELLS).contains(&self.resolution) {
-            return Err(format!("expected a resolution from 1 to {MOST_CELLS}, found {}", self.resolution));
+        if let Some(cells) = self.resolution
+            && !(1..=MOST_CELLS).contains(&cells)
+        {
+            return Err(format!("expected a resolution from 1 to {MOST_CELLS}, found {cells}"));
         }
         let coherence = [ObjectCoherence::Off, ObjectCoherence::LastOccluder];
         Ok(Settings {
-            resolution: self.resolution,
+            resolution: self.resolution.map_or(Resolution::Auto, Resolution::Cells),
             culling: [Culling::Off, Culling::ClosedSolids][usize::from(self.cull_solids)],
             bounding_volumes: self.volume_threshold.map_or(VolumeThreshold::Off, VolumeThreshold::MoreThan),
             object_coherence: coherence[usize::from(self.object_coherence)],

@@ -6,7 +6,7 @@ use super::recipe::{Batch, Matter, Part, Recipe, Settings, Threads};
 use super::{curved, flat, lights};
 use crate::random::Random;
 use crate::scene::{Camera, Shadowing};
-use crate::shadow::{Culling, ObjectCoherence, Receivers, VolumeThreshold};
+use crate::shadow::{Culling, ObjectCoherence, Receivers, Resolution, VolumeThreshold};
 use glam::{DVec3, Vec3};
 
 /// No part is added to a scene of so many triangles.
@@ -75,9 +75,10 @@ fn objects(place: &Place, random: &mut Random) -> Vec<Part> {
 
 fn settings(receivers: Receivers, random: &mut Random) -> Settings {
     let resolution = match random.below(400) {
-        0 => 1024,
-        1..=4 => 256,
-        _ => *random.pick(&RESOLUTIONS),
+        0 => Resolution::Cells(1024),
+        1..=4 => Resolution::Cells(256),
+        5..=9 => Resolution::Auto,
+        _ => Resolution::Cells(*random.pick(&RESOLUTIONS)),
     };
     let coherence = [ObjectCoherence::Off, ObjectCoherence::Off, ObjectCoherence::LastOccluder];
     Settings {

@@ -70,7 +70,7 @@ pub enum Aim {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// Cells along an edge of the light buffer.
-    pub resolution: u32,
+    pub resolution: Resolution,
     /// What may be left out.
     pub culling: Culling,
     /// When lists of cells get bounding-volume records.
@@ -117,7 +117,7 @@ impl Settings {
     /// Everything as usual, at one resolution, for points anywhere.
     pub fn plain(resolution: u32) -> Settings {
         Settings {
-            resolution,
+            resolution: Resolution::Cells(resolution),
             culling: Culling::Off,
             bounding_volumes: VolumeThreshold::Off,
             object_coherence: ObjectCoherence::Off,
@@ -131,7 +131,7 @@ impl Settings {
     pub fn input<'a>(&self, case: &'a Case, index: &'a SceneIndex) -> BuildInput<'a> {
         let on_surfaces = case.points.iter().all(|point| point.primitive().is_some());
         BuildInput {
-            resolution: Resolution::Cells(self.resolution),
+            resolution: self.resolution,
             culling: self.culling,
             bounding_volumes: self.bounding_volumes,
             object_coherence: self.object_coherence,

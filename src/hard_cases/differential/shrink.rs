@@ -3,7 +3,7 @@
 use super::judge::{Depth, Disagreement, Judge, Kind};
 use super::recipe::{Aim, Batch, Recipe, Settings, Threads};
 use crate::geometry::LightPosition;
-use crate::shadow::{Culling, ObjectCoherence, VolumeThreshold};
+use crate::shadow::{Culling, ObjectCoherence, Resolution, VolumeThreshold};
 use glam::Vec3;
 
 /// Recipes that are tried at most.
@@ -91,7 +91,12 @@ impl Shrinking<'_> {
         }
         for resolution in [1, 2, 3, 5, 16, 64, 256] {
             let settings = self.smallest.settings[0];
-            if resolution < settings.resolution
+            let is_fewer = match settings.resolution {
+                Resolution::Auto => true,
+                Resolution::Cells(cells) => resolution < cells,
+            };
+            let resolution = Resolution::Cells(resolution);
+            if is_fewer
                 && self.replace(Recipe {
                     settings: vec![Settings { resolution, ..settings }],
                     ..self.smallest.clone()
