@@ -226,8 +226,11 @@ fn find_body(
         }
         let mut coarser = FINER.pow(levels.grids.len() as u32 - 1);
         let per_edge = levels.grids[0].per_edge();
-        let of_tile =
-            |i: usize, column: u32, row: u32| (side[i] * per_edge + row / EDGE) * per_edge + column / EDGE;
+        // Of places without a certain cell this may be anything.
+        let of_tile = |i: usize, column: u32, row: u32| {
+            let row_of_tiles = side[i].wrapping_mul(per_edge).wrapping_add(row / EDGE);
+            row_of_tiles.wrapping_mul(per_edge).wrapping_add(column / EDGE)
+        };
         let mut any = portion.step(coarser, projector.resolution, &levels.tiles, of_tile);
         while any {
             coarser /= FINER;
