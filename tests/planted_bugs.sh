@@ -180,7 +180,7 @@ plant own-curved-surface-not-tested $buffer/walk.rs \
 cells=src/shadow/certified
 
 plant surface-beyond-the-horizon $cells/certificate.rs \
-    'flags == Item::COVERS && only.far > horizon' 'flags == Item::COVERS' \
+    '== Item::COVERS && only.far > horizon' '== Item::COVERS' \
     irregular_edges_uncertain_centres_and_what_is_withheld_void_a_certificate
 
 plant covered-twice-and-lit $cells/certificate.rs \
@@ -192,10 +192,26 @@ plant surfaces-that-touch-are-two $cells/certificate.rs \
     intervals_that_touch_are_one_surface
 
 plant irregular-edges-ignored $cells/certificate.rs \
-    'flags & (Item::IRREGULAR | Item::MAY_COVER) == 0' 'flags & Item::MAY_COVER == 0' \
+    'let is_certain = flags & Item::DOUBTS == 0;' 'let is_certain = flags & Item::MAY_COVER == 0;' \
     irregular_edges_uncertain_centres_and_what_is_withheld_void_a_certificate \
     every_exact_tester_is_right_in_every_case_at_every_resolution \
     all_exact_testers_agree_with_the_definition_on_random_scenes
+
+plant edge-beside-the-cell-by-its-rounding $cells/second_look.rs \
+    'let slack = 1.25 * self.projector.delta;' 'let slack = -0.2;' \
+    what_is_no_longer_in_doubt_is_so
+
+plant centre-on-an-edge-is-covered $cells/second_look.rs \
+    'is_certain &= value.abs() > error;' 'is_certain &= value.abs() >= 0.0;' \
+    what_is_no_longer_in_doubt_is_so
+
+plant part-of-a-tile-forgotten $cells/levels.rs \
+    'flat_map(move |y| (0..FINER).map' 'flat_map(move |y| (1..FINER).map' \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant small-cell-by-its-rounding $cells/levels.rs \
+    '(du.abs() > error)' '(du.abs() > -error)' \
+    places_in_f32_are_those_of_exact_points
 
 plant third-owner-forgotten $cells/edges.rs \
     'mark(second as usize - 1);' 'let _ = second;' \

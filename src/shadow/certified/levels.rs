@@ -1,7 +1,7 @@
 //! Cells of several sizes: tiles in which many triangles lie are divided into sixteen, whose cells are a quarter as wide, and these again.
 
 use super::projection::{Projected, Projector, cell_and_border, larger};
-use super::receivers::{MOST_ERROR, OPEN, locate_exactly};
+use super::receivers::{CHUNK, MOST_ERROR, OPEN, locate_exactly, places_of};
 use super::tiles::{EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
@@ -103,7 +103,7 @@ impl Levels {
         unreachable!("the finest tiles are not divided")
     }
 
-    /// Finds the cell that each exact point lies in, [`OPEN`] where nothing lies and for one in the light, and its w; see
+    /// Finds the cell that each of up to [`CHUNK`] exact points lies in, [`OPEN`] where nothing lies and for one in the light, and its w; see
     /// [`Whereabouts::depths`](super::receivers::Whereabouts::depths).
     pub fn find(
         &self,
@@ -114,20 +114,9 @@ impl Levels {
         depths: &mut [f32],
     ) {
         find(set, self, points.rounded(), cells, depths);
-        let mut is_first = true;
-        for i in 0..cells.len() {
-            if cells[i] != UNKNOWN {
-                continue;
-            }
-            // All are on their way from memory before the first is looked at.
-            if std::mem::take(&mut is_first) {
-                for (cell, point) in cells[i..].iter().zip(&points.exact()[i..]) {
-                    if *cell == UNKNOWN {
-                        fetch(&point.position);
-                        fetch(&point.source);
-                    }
-                }
-            }
+        let mut unknown = [0; CHUNK];
+        for &i in places_of(UNKNOWN, cells, points.exact(), &mut unknown) {
+            let i = usize::from(i);
             let found = locate_exactly(&self.projector, scene, &points.exact()[i]);
             (cells[i], depths[i]) = match found {
                 Some((at, depth)) => (self.cell(at.side as u32, at.column, at.row), depth),
@@ -300,7 +289,7 @@ mod tests {
         let scene = SceneBuilder::new("none").finish();
         // Many of them on borders of cells, or near.
         let at = |i: i32| [(i % 64 - 32) as f32 / 32.0, (i as f32 * 0.618).fract() * 2.0 - 1.0, 1.0 - 1e-7];
-        let positions = (0..5000).map(|i| {
+        let positions = (0..CHUNK as i32).map(|i| {
             let [a, b, c] =
                 [at(i)[(i % 3) as usize], at(i)[((i + 1) % 3) as usize], at(i)[((i + 2) % 3) as usize]];
             Vec3::new(a, b, if i % 2 == 0 { c } else { -c }) * (1.0 + i as f32 * 1e-3)

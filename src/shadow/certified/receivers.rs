@@ -150,17 +150,9 @@ impl Whereabouts<'_> {
     ) {
         let Whereabouts { tiles, places, depths } = self;
         locate(set, projector, grid, points.rounded(), tiles, places, depths);
-        // All are on their way from memory before the first is looked at.
-        let (mut open, mut count) = ([0u16; CHUNK], 0);
-        for (i, (&tile, point)) in tiles.iter().zip(points.exact()).enumerate() {
-            if tile == OPEN {
-                fetch(&point.position);
-                fetch(&point.source);
-                open[count] = i as u16;
-                count += 1;
-            }
-        }
-        for i in open[..count].iter().map(|&i| i as usize) {
+        let mut open = [0; CHUNK];
+        for &i in places_of(OPEN, tiles, points.exact(), &mut open) {
+            let i = usize::from(i);
             (tiles[i], places[i], depths[i]) = match locate_exactly(projector, scene, &points.exact()[i]) {
                 Some((at, w)) => {
                     let place = TileGrid::place(at.column, at.row) as u8;
@@ -170,6 +162,32 @@ impl Whereabouts<'_> {
             };
         }
     }
+}
+
+/// Numbers that are looked through at a time.
+const FEW: usize = 16;
+
+/// Which of up to [`CHUNK`] points are marked by a number, which few are. All of them are on their way from memory then.
+pub(super) fn places_of<'a>(
+    mark: u32,
+    marks: &[u32],
+    points: &[SurfacePoint],
+    found: &'a mut [u16; CHUNK],
+) -> &'a [u16] {
+    let mut count = 0;
+    for (first, some) in (0u16..).step_by(FEW).zip(marks.chunks(FEW)) {
+        if !some.contains(&mark) {
+            continue;
+        }
+        for (i, _) in (first..).zip(some).filter(|(_, of_point)| **of_point == mark) {
+            let point = &points[usize::from(i)];
+            fetch(&point.position);
+            fetch(&point.source);
+            found[count] = i;
+            count += 1;
+        }
+    }
+    &found[..count]
 }
 
 /// Makes cells of tiles and places, and raises the horizon. Neighbours mostly share a cell.
