@@ -29,7 +29,7 @@ const LEVELS: usize = 2;
 const STEP: u32 = 64;
 
 /// Fewer than this save no memory that would be worth it.
-const LEAST_CELLS: u32 = 16;
+const LEAST_CELLS: u32 = 32;
 
 /// More cells on a side than so many for each triangle are of no use: small scenes are as fast with few.
 const MOST_A_TRIANGLE: u64 = 64;
@@ -127,7 +127,7 @@ impl<'a> Certified<'a> {
 
     /// `None` if lists are too long.
     fn keep_at(&self, resolution: u32, levels: usize, memory: MemoryLimit) -> Result<Option<Kept<'a>>> {
-        let resolution = resolution.next_multiple_of(FINER.pow(levels as u32 - 1));
+        let resolution = resolution.next_multiple_of(Levels::unit(levels));
         // Projections of all but one level are needed while lists are made.
         let of_levels = (levels - 1) * self.scene.vertices.len() * size_of::<Projected>()
             + TileGrid::new(resolution).count() * (size_of::<u32>() + size_of::<u64>());

@@ -90,7 +90,7 @@ impl Layers<'_> {
         let grid = self.levels.grids[level];
         let finer = self.levels.grids.get(level + 1).copied();
         let mut parts = Vec::new();
-        let is_any_crowded = touched(bins, &grid).any(|tile| is_crowded(bins, tile));
+        let is_any_crowded = finer.is_some() && touched(bins, &grid).any(|tile| is_crowded(bins, tile));
         for tile in touched(bins, &grid) {
             if finer.is_some() && (is_crowded(bins, tile) || !is_any_crowded) {
                 parts.extend(self.levels.divide(level, tile));

@@ -31,12 +31,25 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    /// Of so many cells along an edge, the fewest first, each [`FINER`] times as many as the one before. Nothing lies anywhere.
+    /// So many levels, the finest that of the projector, each with [`FINER`] times as many cells along an edge as the one before. Nothing lies
+    /// anywhere.
+    ///
+    /// # Panics
+    /// If there are several, and those along an edge are no multiple of [`unit`](Levels::unit): parts of tiles would be beyond the edge.
     pub fn new(projector: Projector, count: usize) -> Levels {
+        assert!(projector.resolution.is_multiple_of(Levels::unit(count)), "whole tiles at every level");
         let resolution = |level: usize| projector.resolution / FINER.pow((count - 1 - level) as u32);
         let grids: Vec<_> = (0..count).map(|level| TileGrid::new(resolution(level))).collect();
         let tiles = vec![OPEN; grids[0].count()];
         Levels { projector, grids, tiles, parts: Vec::new() }
+    }
+
+    /// Cells of so many levels along an edge are a multiple of this.
+    pub fn unit(count: usize) -> u32 {
+        match count {
+            1 => 1,
+            _ => EDGE * FINER.pow(count as u32 - 1),
+        }
     }
 
     /// Column and row of a tile's part that holds a cell of the next level, as one number.
