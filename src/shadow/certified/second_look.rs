@@ -66,17 +66,17 @@ impl TileTriangles<'_> {
         let corners = self.vertices[triangle]
             .map(|vertex| self.face.coordinates(self.scene.vertices[vertex as usize].as_dvec3() - light));
         let resolution = f64::from(self.projector.resolution);
-        let along = |cell: u32| f64::from(2 * cell + 1) - resolution;
-        let centre = [along(cell[0]), along(cell[1]), resolution];
+        let coordinate = |cell: u32| f64::from(2 * cell + 1) - resolution;
+        let centre = [coordinate(cell[0]), coordinate(cell[1]), resolution];
         let (mut above, mut below, mut is_certain) = (false, false, true);
         for edge in 0..3 {
             let (p, q) = (corners[edge], corners[(edge + 1) % 3]);
             let (mut value, mut size) = (0.0, 0.0);
-            for i in 0..3 {
+            for (i, along) in centre.into_iter().enumerate() {
                 let (j, k) = ((i + 1) % 3, (i + 2) % 3);
                 let (one, other) = (p[j] * q[k], p[k] * q[j]);
-                value += centre[i] * (one - other);
-                size += centre[i].abs() * (one.abs() + other.abs());
+                value += along * (one - other);
+                size += along.abs() * (one.abs() + other.abs());
             }
             let error = size * (8.0 * f64::EPSILON);
             above |= value > error;
