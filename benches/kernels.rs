@@ -10,7 +10,7 @@ use lightbuffer::geometry::ray_triangle::RayTriangle;
 use lightbuffer::geometry::{LightPoint, LightPosition, LightSpace, LightTriangle};
 use lightbuffer::memory::MemoryLimit;
 use lightbuffer::scene::{Framing, ImageSize, Scene, formats, frame};
-use lightbuffer::shadow::certified::Certified;
+use lightbuffer::shadow::certified::{BuildQuality, Certified};
 use lightbuffer::shadow::exact::Arbiter;
 use lightbuffer::shadow::{BuildInput, Queries, SceneIndex};
 use lightbuffer::visibility::{Points, RoundedPoint, SurfacePoint, VisibleSurfaces, t_buffer};
@@ -87,6 +87,10 @@ fn filter(criterion: &mut Criterion) {
     }
 }
 
+/// How cells that are kept are built, in words.
+const QUALITIES: [(&str, BuildQuality); 2] =
+    [("", BuildQuality::Medium), (" of high quality", BuildQuality::High)];
+
 /// Queries by cells that are there, and the cells.
 fn cells(criterion: &mut Criterion) {
     let view = View::of("builtin:sphereflake");
@@ -94,18 +98,23 @@ fn cells(criterion: &mut Criterion) {
     group.sample_size(10).throughput(Throughput::Elements(view.points.len() as u64));
     let mut answers = vec![false; view.points.len()];
     for set in sets() {
-        let kept = alone(|| view.certified(set).keep(512)).expect("room");
-        group.bench_function(BenchmarkId::new("queries by kept cells", set.name()), |bencher| {
-            alone(|| bencher.iter(|| kept.occluded(black_box(view.points()), &mut answers)));
-        });
+        for (what, quality) in QUALITIES {
+            let kept = alone(|| view.certified(set).keep(512, quality)).expect("room");
+            let name = format!("queries by kept cells{what}");
+            group.bench_function(BenchmarkId::new(name, set.name()), |bencher| {
+                alone(|| bencher.iter(|| kept.occluded(black_box(view.points()), &mut answers)));
+            });
+        }
         group.bench_function(BenchmarkId::new("a view at once", set.name()), |bencher| {
             alone(|| {
                 bencher.iter(|| view.certified(set).occluded(view.points(), 512, &mut answers).expect("room"))
             });
         });
-        group.bench_function(BenchmarkId::new("keeping", set.name()), |bencher| {
-            alone(|| bencher.iter(|| view.certified(set).keep(512).expect("room").bytes()));
-        });
+        for (what, quality) in QUALITIES {
+            group.bench_function(BenchmarkId::new(format!("keeping{what}"), set.name()), |bencher| {
+                alone(|| bencher.iter(|| view.certified(set).keep(512, quality).expect("room").bytes()));
+            });
+        }
     }
 }
 

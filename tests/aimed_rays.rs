@@ -7,7 +7,7 @@ use lightbuffer::hard_cases::aimed::Class;
 use lightbuffer::hard_cases::{Inputs, Situation, judge_situations};
 use lightbuffer::shadow::exact::Occlusion;
 use lightbuffer::shadow::exact::plain::PlainTest;
-use lightbuffer::shadow::{Basis, BuildInput, Counters, Culling, REGISTRY, TesterEntry};
+use lightbuffer::shadow::{BESIDE, Basis, BuildInput, Counters, Culling, REGISTRY, TesterEntry};
 use lightbuffer::verdict::Progress;
 use std::collections::BTreeMap;
 
@@ -37,6 +37,7 @@ struct Sum {
 fn every_answer_is_right(class: Class) {
     let entries: Vec<&'static TesterEntry> = REGISTRY
         .iter()
+        .chain(BESIDE)
         .filter(|entry| entry.basis != Basis::Truth && entry.name != "shadow-buffer")
         .collect();
     let (mut queries, mut occluded, mut touching) = (0, 0, 0);

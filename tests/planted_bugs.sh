@@ -205,6 +205,23 @@ plant centre-on-an-edge-is-covered $cells/second_look.rs \
     'is_certain &= value.abs() > error;' 'is_certain &= value.abs() >= 0.0;' \
     what_is_no_longer_in_doubt_is_so
 
+plant cover-with-a-border-that-goes-through $cells/judge.rs \
+    'if may_be_irregular {' 'if false {' \
+    every_point_of_every_triangle_gets_the_exact_answer
+
+plant touching-is-apart $cells/pyramids.rs \
+    'beyond[edge][c][i] = u64::from(at < -slack)' 'beyond[edge][c][i] = u64::from(at < slack)' \
+    what_is_certain_of_two_triangles_is_so
+
+plant plane-that-touches-is-before $cells/pyramids.rs \
+    'other_before &= u64::from(other_at < -of_one);' 'other_before &= u64::from(other_at < of_one);' \
+    what_is_certain_of_two_triangles_is_so
+
+plant one-cell-speaks-for-the-triangle $cells/by_triangle.rs \
+    'Verdict::Open => NOT_LIT | NOT_DARK,' 'Verdict::Open => 0,' \
+    only_what_all_cells_agree_on_is_answered \
+    every_point_of_every_triangle_gets_the_exact_answer
+
 plant part-of-a-tile-forgotten $cells/levels.rs \
     'flat_map(move |y| (0..FINER).map' 'flat_map(move |y| (1..FINER).map' \
     every_exact_tester_is_right_in_every_case_at_every_resolution

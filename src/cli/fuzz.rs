@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::film::{FileSet, grouped};
 use crate::hard_cases::differential::{Answer, Counts, Finding, Judge, Plan, search};
 use crate::report::differential::FuzzReport;
-use crate::shadow::{REGISTRY, TesterEntry, shadow_buffer};
+use crate::shadow::{BESIDE, REGISTRY, TesterEntry, shadow_buffer};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -50,7 +50,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Outcome> {
     // Of the shadow-buffer nobody expects an answer that is right.
     let entries: Vec<&'static TesterEntry> =
-        REGISTRY.iter().filter(|entry| entry.name != shadow_buffer::ENTRY.name).collect();
+        REGISTRY.iter().chain(BESIDE).filter(|entry| entry.name != shadow_buffer::ENTRY.name).collect();
     match &args.replay {
         Some(path) => replay(path, &entries),
         None => fuzz(args, &entries),

@@ -34,8 +34,8 @@ pub use keeper::{Fresh, Keeper, Origin, Supplied, TesterSource};
 pub use precise::{blocks, crossings_of, is_there};
 pub use queries::Queries;
 pub use registry::{
-    Basis, Build, BuildInput, BuildOfScene, EmbreeSettings, Lights, REGISTRY, SceneTester, TesterEntry, find,
-    testers,
+    BESIDE, Basis, Build, BuildInput, BuildOfScene, EmbreeSettings, Lights, REGISTRY, SceneTester,
+    TesterEntry, find, testers,
 };
 pub use scene_index::{Casters, SceneIndex};
 pub use solids::{FarSides, Solids};

@@ -154,20 +154,23 @@ pub const REGISTRY: &[TesterEntry] = &[
     super::embree::FAST,
 ];
 
+/// Testers that are asked if they are named: one that chooses among those of the registry, and one of them built for many views.
+pub const BESIDE: [&TesterEntry; 2] = [&auto::ENTRY, &kept_light_buffer::HIGH];
+
 /// What names beside those of the registry look like.
 #[cfg(feature = "embree")]
 const MODE_NAMES: Option<&str> = Some(crate::embree::EmbreeMode::GRAMMAR);
 #[cfg(not(feature = "embree"))]
 const MODE_NAMES: Option<&str> = None;
 
-/// Every tester that has a name: those of [`REGISTRY`], after them `auto`, which chooses among them, and then one for each
+/// Every tester that has a name: those of [`REGISTRY`], after them `auto`, which chooses among them, and `light-buffer-high`, and then one for each
 /// [`EmbreeMode`](crate::embree::EmbreeMode).
 pub fn testers() -> impl Iterator<Item = &'static TesterEntry> {
     #[cfg(feature = "embree")]
     let modes = super::embree::MODES.iter();
     #[cfg(not(feature = "embree"))]
     let modes = std::iter::empty();
-    REGISTRY.iter().chain([&auto::ENTRY]).chain(modes)
+    REGISTRY.iter().chain(BESIDE).chain(modes)
 }
 
 /// The tester of a name.
@@ -176,8 +179,7 @@ pub fn testers() -> impl Iterator<Item = &'static TesterEntry> {
 /// [`Error::Usage`] that lists the names there are.
 pub fn find(name: &str) -> Result<&'static TesterEntry> {
     testers().find(|entry| entry.name == name).ok_or_else(|| {
-        let names: Vec<_> =
-            REGISTRY.iter().chain([&auto::ENTRY]).map(|entry| entry.name).chain(MODE_NAMES).collect();
+        let names: Vec<_> = REGISTRY.iter().chain(BESIDE).map(|entry| entry.name).chain(MODE_NAMES).collect();
         let missing = if cfg!(feature = "embree") { "" } else { " (built without the feature `embree`)" };
         Error::Usage(format!("no shadow tester `{name}`{missing}; there are: {}", names.join(", ")))
     })

@@ -6,7 +6,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 /// A surface point rounded to f32, and the primitive that it lies on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(C, align(16))]
 pub struct RoundedPoint {
     /// [`SurfacePoint::position`] rounded to f32: each coordinate is wrong by half an ulp and 2^-29 of that.
@@ -23,6 +23,12 @@ impl RoundedPoint {
     #[inline(always)]
     pub fn primitive(&self) -> Option<PrimitiveIndex> {
         (!self.is_bare()).then_some(self.primitive)
+    }
+
+    /// The primitive that the point lies on, or a number that is none's.
+    #[inline(always)]
+    pub(crate) fn primitive_or_most(&self) -> PrimitiveIndex {
+        self.primitive
     }
 
     /// Whether it lies on no primitive.

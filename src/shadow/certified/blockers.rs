@@ -2,10 +2,9 @@
 //!
 //! What belongs to the triangles is set up once for all queries of the cell, of which there may be one or hundreds.
 
-use super::cell_lists::Item;
-use super::certificate::Record;
 use super::open::Open;
 use super::projection::{Projected, ROUNDOFF, larger, smaller};
+use super::stored::Record;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::masks::bits;
 use crate::scene::Scene;
@@ -85,12 +84,12 @@ impl Blockers {
         delta: f32,
     ) {
         for (lane, record) in records.iter().enumerate() {
-            let triangle = record.item.triangle();
+            let triangle = record.listed.triangle();
             let vertices = scene.triangles[triangle as usize].vertices;
             for (corner, vertex) in vertices.into_iter().enumerate() {
                 let at = &projected[vertex as usize];
                 // No comparison says anything of what does not lie on one side.
-                let u = if record.item.has(Item::IN_SPACE) { f32::NAN } else { at.u };
+                let u = if record.listed.is_in_space() { f32::NAN } else { at.u };
                 (self.u[corner][lane], self.v[corner][lane], self.w[corner][lane]) = (u, at.v, at.w);
             }
             (self.near[lane], self.triangles[lane]) = (record.near, triangle);
@@ -158,8 +157,10 @@ impl Blockers {
 
 #[cfg(test)]
 mod tests {
-    use super::super::open::{Chunk, OpenQueries};
+    use super::super::cell_lists::Item;
+    use super::super::open::OpenQueries;
     use super::super::projection::Projector;
+    use super::super::verdict::{self, Listed};
     use super::*;
     use crate::geometry::occlusion::PreciseQuery;
     use crate::geometry::{ExactPosition, LightSpace};
@@ -184,11 +185,9 @@ mod tests {
     fn open(set: InstructionSet, projector: &Projector, points: &[Vec3]) -> Vec<Open> {
         let exact: Vec<_> = points.iter().map(|&p| SurfacePoint::bare(p).expect("finite")).collect();
         let rounded = RoundedPoint::all(&exact);
-        let (cells, undecided) = (vec![0; exact.len()], vec![true; exact.len()]);
-        let points = Points::new(&rounded, &exact);
         let mut open = OpenQueries::default();
-        open.extend(set, projector, &Chunk { first: 0, points, cells: &cells, undecided: &undecided }, |_| 4);
-        open.all
+        (0..exact.len() as u32).for_each(|query| open.push(0, query));
+        open.placed(set, projector, Points::new(&rounded, &exact), |_| 4)
     }
 
     /// Triangles, some of them slivers, and places on the edges of the first, before, on and behind it.
@@ -223,7 +222,7 @@ mod tests {
             let is_on_the_side = |corners: &[Vec3; 3]| corners.iter().all(|&p| projector.project(p.to_array()).side == 4);
             let records: Vec<_> = (0..).zip(&triangles).filter(|(_, corners)| is_on_the_side(corners)).map(|(number, corners)| {
                 let near = corners.iter().fold(0.0, |near, p| f32::max(near, 1.0 / p.z));
-                Record { near: near * (1.0 + 8.0 * ROUNDOFF), item: Item::new(number, 0) }
+                Record { near: near * (1.0 + 8.0 * ROUNDOFF), listed: Listed::new(number, 0, verdict::Verdict::Open) }
             }).collect();
             prop_assume!(!records.is_empty());
             let verdicts = |set: InstructionSet| {
@@ -243,7 +242,7 @@ mod tests {
             for (verdict, &point) in found.iter().zip(&points) {
                 let query = PreciseQuery::new(&space, point.as_dvec3(), || ExactPosition::Bare(point));
                 for (lane, record) in records.iter().enumerate() {
-                    let (blocks, _) = query.blocks(scene.corners(record.item.triangle()));
+                    let (blocks, _) = query.blocks(scene.corners(record.listed.triangle()));
                     let bit = |of: u32| of >> lane & 1 == 1;
                     prop_assert!(!bit(verdict.blocked) || blocks, "{} is blocked by none", point);
                     prop_assert!(!blocks || bit(verdict.blocked) || bit(verdict.open), "{} is blocked", point);
@@ -259,7 +258,8 @@ mod tests {
         let scene = scene(&corners);
         let projector = Projector::new(Vec3::ZERO, 8);
         let projected: Vec<_> = scene.vertices.iter().map(|p| projector.project(p.to_array())).collect();
-        let records = [Item::new(0, Item::IN_SPACE), Item::new(1, 0)].map(|item| Record { near: 0.6, item });
+        let listed = |triangle, flags| Listed::new(triangle, flags, verdict::Verdict::Open);
+        let records = [listed(0, Item::IN_SPACE), listed(1, 0)].map(|listed| Record { near: 0.6, listed });
         let [mut query] = open(InstructionSet::Portable, &projector, &[Vec3::new(0.0, 0.0, 4.0)])[..] else {
             panic!("one query")
         };

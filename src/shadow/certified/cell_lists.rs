@@ -19,7 +19,7 @@ pub(super) struct Entry {
 
 /// A triangle by its number in the tile or the scene, and four flags.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Item(u32);
+pub(super) struct Item(pub(super) u32);
 
 impl Item {
     /// It certainly covers the centre of the cell, edges excluded.

@@ -1,44 +1,15 @@
 //! What a cell decides by itself (TRUTH, "Certified cells").
 
-use super::cell_lists::{CellLists, Item};
+use super::cell_lists::Item;
+use super::edges::Edges;
+use super::entries::{Cell, Entries, FEW, bits, depth};
+use super::judge::{Judge, Judged};
 use super::projection::larger;
-use super::second_look::TileTriangles;
-use crate::geometry::batch::LANES;
+use super::stored::{Header, Record, Run, UNSORTED};
+use super::verdict::Verdict;
+use crate::geometry::batch::InstructionSet;
 use std::cmp::Reverse;
 use std::ops::AddAssign;
-
-/// Two depths that decide most queries of a cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
-pub(super) struct Header {
-    /// A receiver whose w is above this is lit, if it lies on a triangle that is cast.
-    pub lit: f32,
-    /// Whatever has a w below this is dark.
-    pub dark: f32,
-}
-
-impl Header {
-    /// Of a cell in which nothing is in front of a receiver.
-    pub const EMPTY: Header = Header { lit: 0.0, dark: 0.0 };
-}
-
-/// A record of a cell's list.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Record {
-    /// At least the largest w of the triangle in the cell.
-    pub near: f32,
-    pub item: Item,
-}
-
-/// Where a list is among others. It is in the order of depth, the nearest first, only if it is longer than [`UNSORTED`].
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Run {
-    pub start: u32,
-    pub length: u32,
-}
-
-/// Lists of so many are looked through at once, in any order.
-pub(super) const UNSORTED: usize = LANES;
 
 /// What cells turned out to be.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -59,18 +30,6 @@ impl AddAssign for Kinds {
     }
 }
 
-/// The entries of a cell side by side, at least [`FEW`]: what is not there has negative depths. Depths are the bits of
-/// numbers that are not negative, which have their order; unlike numbers they have a largest that takes no branches.
-#[derive(Debug, Default)]
-pub(super) struct Entries {
-    near: Vec<i32>,
-    far: Vec<i32>,
-    items: Vec<Item>,
-}
-
-/// As many entries as most cells have at most: loops over so many have no branches.
-const FEW: usize = 16;
-
 /// The entries of one surface of a cell together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Surface {
@@ -86,62 +45,19 @@ struct Surface {
     next: i32,
 }
 
-/// A cell of a tile, in which nothing is withheld with a w above the horizon.
-pub(super) struct Cell<'a> {
-    pub tile: &'a TileTriangles<'a>,
-    pub lists: &'a CellLists,
-    /// Its place in the tile.
-    pub place: usize,
-    /// Its column and row.
-    pub at: [u32; 2],
-    pub horizon: f32,
-}
-
-impl Cell<'_> {
-    /// The record of an entry.
-    #[inline(always)]
-    fn record(&self, item: Item, near: f32) -> Record {
-        Record { near, item: Item::new(self.tile.numbers[item.triangle() as usize], item.flags()) }
-    }
-}
-
 impl Entries {
-    /// Memory in bytes.
-    pub fn bytes(&self) -> usize {
-        self.near.capacity() * (2 * size_of::<f32>() + size_of::<Item>())
-    }
-
-    /// Appends a record of each of the first `count` that is no farther than `end`, and returns how many that are.
+    /// What the header says of so many entries.
     #[inline(always)]
-    fn append(&self, cell: &Cell<'_>, count: usize, end: i32, records: &mut Vec<Record>) -> usize {
-        let before = records.len();
-        let in_reach = self.near[..count].iter().zip(&self.items).filter(|(near, _)| **near >= end);
-        records.extend(in_reach.map(|(&near, &item)| cell.record(item, depth(near))));
-        records.len() - before
-    }
-
-    /// Takes in what a cell holds, and returns how much that is.
-    #[inline(always)]
-    fn gather(&mut self, cell: &Cell<'_>) -> usize {
-        let Entries { near, far, items, .. } = self;
-        if near.is_empty() {
-            (*near, *far, *items) = (vec![-1; FEW], vec![-1; FEW], vec![Item::default(); FEW]);
+    fn judge_by(&mut self, header: Header, count: usize) {
+        for ((&near, &far), verdict) in self.near[..count].iter().zip(&self.far).zip(&mut self.verdicts) {
+            *verdict = if depth(far) > header.lit {
+                Verdict::Lit
+            } else if depth(near) < header.dark {
+                Verdict::Dark
+            } else {
+                Verdict::Open
+            };
         }
-        // Over from the last cell.
-        near[..FEW].fill(-1);
-        far[..FEW].fill(-1);
-        let mut count = 0;
-        for entry in cell.lists.of(cell.place) {
-            debug_assert!(entry.near >= entry.far, "an interval");
-            if count == near.len() {
-                near.extend([-1; FEW]);
-                far.extend([-1; FEW]);
-                items.extend([Item::default(); FEW]);
-            }
-            (near[count], far[count], items[count]) = (bits(entry.near), bits(entry.far), entry.item);
-            count += 1;
-        }
-        count
     }
 
     /// The nearest surface of what is no nearer than `from`, among so many entries. Where nothing is certain, its entries are looked at again.
@@ -206,15 +122,27 @@ fn surface<const COUNT: usize>(near: &[i32], far: &[i32], items: &[Item], from: 
     Surface { near: nearest, far: end, covers, is_certain, next }
 }
 
-/// A depth as bits, which must not be negative. Both zeros are one.
-#[inline(always)]
-fn bits(depth: f32) -> i32 {
-    (depth + 0.0).to_bits() as i32
+/// Whoever judges the triangles of cells.
+pub(super) struct Judging<'a> {
+    pub set: InstructionSet,
+    pub judge: &'a mut Judge,
+    pub edges: &'a Edges,
 }
 
-#[inline(always)]
-fn depth(bits: i32) -> f32 {
-    f32::from_bits(bits as u32)
+impl Judging<'_> {
+    /// Judges those of so many entries whose verdict is open.
+    #[inline(always)]
+    fn judge(&mut self, cell: &Cell<'_>, entries: &mut Entries, count: usize) {
+        self.judge.judge(self.set, &Judged { cell, edges: self.edges, count }, entries);
+    }
+
+    /// Notes the verdicts on so many entries.
+    #[inline(always)]
+    fn note(&mut self, entries: &Entries, count: usize) {
+        for (&item, &verdict) in entries.items[..count].iter().zip(&entries.verdicts) {
+            self.judge.note(item, verdict);
+        }
+    }
 }
 
 /// Makes header and list of a cell.
@@ -231,6 +159,7 @@ pub(super) fn certify(
     entries: &mut Entries,
     records: &mut Vec<Record>,
     kinds: &mut Kinds,
+    mut judging: Option<Judging<'_>>,
 ) -> (Header, Run) {
     if cell.lists.is_empty(cell.place) {
         return (Header::EMPTY, Run::default());
@@ -240,7 +169,11 @@ pub(super) fn certify(
     if let Some(only) = cell.lists.only(cell.place) {
         let in_doubt = only.item.has(Item::DOUBTS);
         let item = if in_doubt { cell.tile.look_again(only.item, cell.at) } else { only.item };
-        records.push(cell.record(item, only.near));
+        let verdict = if judging.is_some() { Verdict::Lit } else { Verdict::Open };
+        records.push(cell.record(item, only.near, verdict));
+        if let Some(judging) = judging {
+            judging.judge.note(item, verdict);
+        }
         let is_certain = item.flags() & (Item::COVERS | Item::DOUBTS) == Item::COVERS && only.far > horizon;
         kinds.once += u64::from(is_certain);
         let header = match is_certain {
@@ -254,6 +187,10 @@ pub(super) fn certify(
     if first.is_certain && first.covers == 1 && depth(first.far) > horizon {
         kinds.once += 1;
         let header = Header { lit: larger(depth(first.next), horizon), dark: depth(first.far) };
+        if let Some(judging) = &mut judging {
+            entries.judge_by(header, count);
+            judging.note(entries, count);
+        }
         let length = entries.append(cell, count, first.far, records);
         // Nobody asks for an order here who is not answered by the header, or hardly anybody.
         records[start as usize..].iter_mut().for_each(|record| record.near = depth(first.near));
@@ -273,8 +210,14 @@ pub(super) fn certify(
         }
         surface = entries.surface(cell, count, surface.next);
     }
+    if let Some(judging) = &mut judging {
+        entries.sort(count);
+        entries.judge_by(header, count);
+        judging.judge(cell, entries, count);
+        judging.note(entries, count);
+    }
     let length = entries.append(cell, count, end, records);
-    if length > UNSORTED {
+    if length > UNSORTED && judging.is_none() {
         records[start as usize..].sort_unstable_by_key(|record| Reverse(bits(record.near)));
     }
     (header, Run { start, length: length as u32 })
@@ -282,7 +225,9 @@ pub(super) fn certify(
 
 #[cfg(test)]
 mod tests {
+    use super::super::cell_lists::CellLists;
     use super::super::projection::Projector;
+    use super::super::second_look::TileTriangles;
     use super::*;
     use crate::scene::SceneBuilder;
     use crate::shadow::light_buffer::cube::Face;
@@ -308,8 +253,8 @@ mod tests {
         }
         let (mut scratch, mut records) = (Entries::default(), Vec::new());
         let cell = Cell { tile: &tile, lists: &lists, place: 0, at: [0, 0], horizon };
-        let (header, run) = certify(&cell, &mut scratch, &mut records, &mut Kinds::default());
-        assert!(records.iter().all(|record| record.item.triangle() > 90), "numbers of the scene");
+        let (header, run) = certify(&cell, &mut scratch, &mut records, &mut Kinds::default(), None);
+        assert!(records.iter().all(|record| record.listed.triangle() > 90), "numbers of the scene");
         assert_eq!(run.length as usize, records.len());
         assert!(records.len() <= UNSORTED || records.is_sorted_by(|a, b| a.near >= b.near));
         (header, run.length)

@@ -85,6 +85,14 @@ impl Edges {
         self.slots[slot] = this as u32 + 1;
     }
 
+    /// The two half-edges of each edge that is regular among those that were looked at last: four times the number of the triangle and that of the edge.
+    pub fn regular(&self) -> impl Iterator<Item = [usize; 2]> {
+        let owners = self.others.iter().enumerate();
+        owners
+            .filter(|(_, other)| !matches!(**other, 0 | MANY))
+            .map(|(first, &other)| [first, other as usize - 1])
+    }
+
     /// Memory in bytes.
     pub fn bytes(&self) -> usize {
         (self.slots.capacity() + self.others.capacity()) * size_of::<u32>()

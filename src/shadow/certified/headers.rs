@@ -1,8 +1,8 @@
 //! Queries against the headers of their cells.
 
-use super::certificate::Header;
 use super::projection::Projector;
 use super::receivers::OPEN;
+use super::stored::Header;
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 

@@ -2,12 +2,13 @@
 
 use super::Certified;
 use super::bins::{Bins, Budget, touched};
-use super::certificate::{Header, Run};
+use super::by_triangle::States;
 use super::levels::{FINER, Levels};
 use super::lists::{Lister, Stored};
 use super::making::Lists;
 use super::projection::{Projected, Projector};
 use super::receivers::Horizon;
+use super::stored::{Header, Run};
 use super::survey::Cast;
 use super::tiles::{AREA, TileGrid};
 
@@ -70,14 +71,19 @@ impl Certified<'_> {
     }
 
     /// Lists of all cells, or `None` if they are too long.
-    pub(super) fn lists_of(&self, all: &Layers<'_>, budget: &Budget) -> Option<Lists> {
+    pub(super) fn lists_of(
+        &self,
+        all: &Layers<'_>,
+        states: Option<&States>,
+        budget: &Budget,
+    ) -> Option<Lists> {
         let mut listers = Vec::with_capacity(all.layers.len());
         for layer in &all.layers {
             let Layer { projector, grid, projected, horizon, bins } = layer;
             let (scene, projector, grid) = (self.scene, *projector, *grid);
             listers.push(Lister { scene, projector, grid, horizon, projected, bins, budget });
         }
-        let mut lists = self.lists(&listers, &all.stored)?;
+        let mut lists = self.lists(&listers, states, &all.stored)?;
         lists.shrink();
         Some(lists)
     }

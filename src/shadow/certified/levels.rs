@@ -1,13 +1,14 @@
 //! Cells of several sizes: tiles in which many triangles lie are divided into sixteen, whose cells are a quarter as wide, and these again.
 
 use super::projection::{Projected, Projector, cell_and_border, larger};
-use super::receivers::{CHUNK, MOST_ERROR, OPEN, locate_exactly, places_of};
+use super::receivers::{MOST_ERROR, OPEN, locate_exactly, places_of};
+use super::selected::{CHUNK, Selected};
 use super::tiles::{EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::fetch::fetch;
 use crate::scene::Scene;
-use crate::visibility::{Points, RoundedPoint};
+use crate::visibility::RoundedPoint;
 
 /// Cells of one level along the edge of one of the level before, and tiles.
 pub(super) const FINER: u32 = 4;
@@ -122,15 +123,15 @@ impl Levels {
         &self,
         set: InstructionSet,
         scene: &Scene,
-        points: Points<'_>,
+        points: Selected<'_>,
         cells: &mut [u32],
         depths: &mut [f32],
     ) {
         find(set, self, points.rounded(), cells, depths);
         let mut unknown = [0; CHUNK];
-        for &i in places_of(UNKNOWN, cells, points.exact(), &mut unknown) {
+        for &i in places_of(UNKNOWN, cells, points, &mut unknown) {
             let i = usize::from(i);
-            let found = locate_exactly(&self.projector, scene, &points.exact()[i]);
+            let found = locate_exactly(&self.projector, scene, points.exact(i));
             (cells[i], depths[i]) = match found {
                 Some((at, depth)) => (self.cell(at.side as u32, at.column, at.row), depth),
                 None => (OPEN, f32::NAN),
@@ -252,7 +253,7 @@ fn find_body(
 mod tests {
     use super::*;
     use crate::scene::SceneBuilder;
-    use crate::visibility::SurfacePoint;
+    use crate::visibility::{Points, SurfacePoint};
     use glam::Vec3;
     use std::collections::BTreeMap;
 
@@ -311,7 +312,7 @@ mod tests {
         let rounded = RoundedPoint::all(&points);
         for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
             let (mut cells, mut depths) = (vec![0; points.len()], vec![0.0; points.len()]);
-            levels.find(set, &scene, Points::new(&rounded, &points), &mut cells, &mut depths);
+            levels.find(set, &scene, Selected::all(Points::new(&rounded, &points)), &mut cells, &mut depths);
             for (point, &cell) in points.iter().zip(&cells) {
                 let (at, _) = locate_exactly(&levels.projector, &scene, point).expect("not in the light");
                 assert_eq!(cell, levels.cell(at.side as u32, at.column, at.row), "{point:?}");
@@ -320,7 +321,8 @@ mod tests {
         let mut found = vec![7];
         let light = [SurfacePoint::bare(Vec3::ZERO).expect("finite")];
         let rounded = RoundedPoint::all(&light);
-        levels.find(InstructionSet::Portable, &scene, Points::new(&rounded, &light), &mut found, &mut [0.0]);
+        let light = Selected::all(Points::new(&rounded, &light));
+        levels.find(InstructionSet::Portable, &scene, light, &mut found, &mut [0.0]);
         assert_eq!(found, [OPEN]);
     }
 }

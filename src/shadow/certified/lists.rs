@@ -2,15 +2,19 @@
 
 use super::bins::{Bins, Budget, Caller};
 use super::block::{Patch, Seen, Sixteen, any_above};
+use super::by_triangle::States;
 use super::cell_lists::{CellLists, Item};
-use super::certificate::{Cell, Entries, Header, Kinds, Record, Run, certify};
+use super::certificate::{Judging, Kinds, certify};
 use super::corners::{Corners, LANES};
 use super::edges::Edges;
+use super::entries::{Cell, Entries};
 use super::facing::{Facing, exactly};
+use super::judge::Judge;
 use super::projection::{Projected, Projector};
 use super::receivers::Horizon;
 use super::second_look::TileTriangles;
 use super::small::Patches;
+use super::stored::{Header, Record, Run};
 use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
@@ -81,6 +85,7 @@ pub(super) struct Scratch {
     edges: Edges,
     cells: CellLists,
     entries: Entries,
+    judge: Judge,
     granted: usize,
 }
 
@@ -96,6 +101,7 @@ impl Scratch {
             edges: Edges::default(),
             cells: CellLists::new(),
             entries: Entries::default(),
+            judge: Judge::new(),
             granted: 0,
         }
     }
@@ -105,6 +111,7 @@ impl Scratch {
         self.triangles.capacity() * triangle
             + self.corners.capacity() * size_of::<Corners>()
             + self.entries.bytes()
+            + self.judge.bytes()
             + self.edges.bytes()
             + self.cells.bytes()
     }
@@ -268,6 +275,7 @@ impl Lister<'_> {
 fn list_body(
     set: InstructionSet,
     listers: &[Lister<'_>],
+    states: Option<&States>,
     tiles: &[Stored],
     first_cell: usize,
     scratch: &mut Scratch,
@@ -282,7 +290,10 @@ fn list_body(
         lister.enter(set, tile, first_cell + first, scratch);
         part.entries += scratch.cells.count() as u64;
         let (side, corner) = lister.grid.corner(tile);
-        let Scratch { triangles, numbers, irregular, cells, entries, .. } = scratch;
+        let Scratch { triangles, numbers, irregular, edges, cells, entries, judge, .. } = scratch;
+        if states.is_some() {
+            judge.begin(numbers.len());
+        }
         let of_tile = TileTriangles {
             scene: lister.scene,
             projector: &lister.projector,
@@ -301,8 +312,12 @@ fn list_body(
                 at: [corner[0] + column, corner[1] + row],
                 horizon: lister.horizon.of(first_cell + first + place),
             };
+            let judging = states.map(|_| Judging { set, judge, edges });
             (part.headers[first + place], part.runs[first + place]) =
-                certify(&cell, entries, &mut part.records, &mut part.kinds);
+                certify(&cell, entries, &mut part.records, &mut part.kinds, judging);
+        }
+        if let Some(states) = states {
+            judge.end(numbers, states);
         }
         let records = part.records.capacity() * size_of::<Record>();
         let scratch_bytes = scratch.bytes();
@@ -318,6 +333,7 @@ for_instruction_sets! {
     /// Makes headers and lists of tiles whose cells follow each other, the first of which is `first_cell`.
     pub(super) fn list = list_body, (
         listers: &[Lister<'_>],
+        states: Option<&States>,
         tiles: &[Stored],
         first_cell: usize,
         scratch: &mut Scratch,

@@ -1,12 +1,15 @@
 //! Headers and lists of all cells: triangles by tile, and the tiles one after the other, on all threads.
 
 use super::bins::{Bins, Budget};
-use super::certificate::{Header, Kinds, Record, Run};
+use super::by_triangle::States;
+use super::certificate::Kinds;
 use super::lists::{self, Lister, Part, Scratch, Stored};
+use super::stored::{Header, Record, Run};
 use super::survey::{self, Survey};
 use super::tiles::AREA;
 use super::{Certified, Work, is_plain};
 use crate::float_environment::StandardFloats;
+use crate::geometry::fetch::fetch;
 use crate::shadow::duplicates::duplicates;
 use rayon::iter::repeat_n;
 use rayon::prelude::*;
@@ -39,10 +42,22 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// The list of a cell, nearest first if it is longer than [`UNSORTED`](super::certificate::UNSORTED).
+    /// The list of a cell, nearest first if it is longer than [`UNSORTED`](super::stored::UNSORTED).
     pub fn of(&self, cell: usize) -> &[Record] {
         let run = self.runs[cell];
         &self.records[cell / CELLS][run.start as usize..][..run.length as usize]
+    }
+
+    /// Has it fetched where the list of a cell is.
+    #[inline(always)]
+    pub fn fetch(&self, cell: usize) {
+        fetch(&self.runs[cell]);
+    }
+
+    /// Has the list of a cell fetched, up to a few lines of the cache.
+    #[inline(always)]
+    pub fn fetch_records(&self, cell: usize) {
+        self.of(cell).iter().step_by(64 / size_of::<Record>()).take(4).for_each(fetch);
     }
 
     /// The side of a cell.
@@ -119,7 +134,12 @@ impl Certified<'_> {
     }
 
     /// Lists of all cells of some tiles, or `None` if they are too long.
-    pub(super) fn lists(&self, listers: &[Lister<'_>], tiles: &[Stored]) -> Option<Lists> {
+    pub(super) fn lists(
+        &self,
+        listers: &[Lister<'_>],
+        states: Option<&States>,
+        tiles: &[Stored],
+    ) -> Option<Lists> {
         let cells = tiles.len() * AREA as usize;
         // On all threads, since the pages are new.
         let mut headers: Vec<Header> = repeat_n(Header::EMPTY, cells).collect();
@@ -132,7 +152,7 @@ impl Certified<'_> {
             .map_init(Scratch::new, |scratch, (part, ((headers, runs), tiles))| {
                 let _floats = StandardFloats::new();
                 let mut of_part = Part::new(headers, runs);
-                lists::list(self.set, listers, tiles, part * CELLS, scratch, &mut of_part);
+                lists::list(self.set, listers, states, tiles, part * CELLS, scratch, &mut of_part);
                 of_part
             })
             .collect();

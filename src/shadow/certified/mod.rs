@@ -21,12 +21,16 @@ mod automatic;
 mod bins;
 mod block;
 mod blockers;
+mod by_triangle;
 mod cell_lists;
 mod certificate;
 mod corners;
 mod edges;
+mod entries;
 mod facing;
 mod headers;
+mod joints;
+mod judge;
 mod kept;
 mod large;
 mod layers;
@@ -35,11 +39,15 @@ mod lists;
 mod making;
 mod open;
 mod projection;
+mod pyramids;
 mod receivers;
 mod second_look;
+mod selected;
 mod small;
+mod stored;
 mod survey;
 mod tiles;
+mod verdict;
 mod view;
 mod walk;
 
@@ -55,7 +63,8 @@ use cell_lists::Item;
 use glam::Vec3;
 use projection::{Projected, Projector};
 use rayon::prelude::*;
-use receivers::{CHUNK, Horizon};
+use receivers::Horizon;
+use selected::CHUNK;
 use survey::{Cast, Survey};
 use tiles::TileGrid;
 
@@ -73,6 +82,15 @@ pub struct Certified<'a> {
     pub set: InstructionSet,
     /// The most memory that may be needed.
     pub memory: MemoryLimit,
+}
+
+/// How much is done for cells that are kept, before anybody asks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BuildQuality {
+    /// What pays from the second view on.
+    Medium,
+    /// What pays after some tens of views: also a verdict on the points of every triangle in every cell, and on whole triangles.
+    High,
 }
 
 /// What making cells took, and asking a view.

@@ -4,7 +4,6 @@ use super::projection::{Projector, ROUNDOFF};
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::fetch::fetch;
-use crate::scene::PrimitiveIndex;
 use crate::visibility::Points;
 
 /// What the lists have to know of a query.
@@ -86,61 +85,47 @@ fn place_body(_: InstructionSet, projector: &Projector, placed: &mut Placed) {
     }
 }
 
-/// Queries that were held against headers.
-pub(super) struct Chunk<'a> {
-    /// The number of the first.
-    pub first: usize,
-    pub points: Points<'a>,
-    pub cells: &'a [u32],
-    pub undecided: &'a [bool],
-}
-
-/// Open queries, and keys that sort them by cell.
+/// Open queries by keys that sort them by cell: the cell of each in the upper half, and its number in the lower.
 #[derive(Debug, Default)]
 pub(super) struct OpenQueries {
-    pub all: Vec<Open>,
-    /// The cell of each in the upper half, and its place in `all` in the lower.
     pub keys: Vec<u64>,
-    /// Those of a chunk: all are on their way from memory before the first is looked at.
-    found: Vec<u32>,
 }
 
+/// Points that are fetched ahead of those that are placed.
+const AHEAD: usize = 2 * PORTION;
+
 impl OpenQueries {
-    /// Appends the undecided queries of a chunk. `side_of` says the side of a cell.
+    /// Adds a query in a cell.
     #[inline(always)]
-    pub fn extend(
-        &mut self,
+    pub fn push(&mut self, cell: u32, query: u32) {
+        self.keys.push(u64::from(cell) << 32 | u64::from(query));
+    }
+
+    /// Places all of them, in the order of their keys. `side_of` says the side of a cell.
+    #[inline(always)]
+    pub fn placed(
+        &self,
         set: InstructionSet,
         projector: &Projector,
-        chunk: &Chunk<'_>,
+        points: Points<'_>,
         side_of: impl Fn(u32) -> u32,
-    ) {
-        let Chunk { first, points, cells, undecided } = *chunk;
-        self.found.clear();
-        for (eight, undecided) in undecided.chunks(8).enumerate() {
-            // Mostly none of them.
-            if !undecided.contains(&true) {
-                continue;
-            }
-            for (i, _) in (8 * eight..).zip(undecided).filter(|(_, undecided)| **undecided) {
-                fetch(&points.exact()[i].position);
-                self.found.push(i as u32);
-            }
-        }
+    ) -> Vec<Open> {
+        let mut all = Vec::with_capacity(self.keys.len());
         let mut placed = Placed::default();
-        for found in self.found.chunks(PORTION) {
-            for (lane, &i) in found.iter().enumerate() {
-                let at = points.exact()[i as usize].position;
+        for (first, keys) in (0..).step_by(PORTION).zip(self.keys.chunks(PORTION)) {
+            for &key in self.keys.iter().skip(first + AHEAD).take(PORTION) {
+                fetch(&points.exact()[key as u32 as usize].position);
+            }
+            for (lane, &key) in keys.iter().enumerate() {
+                let at = points.exact()[key as u32 as usize].position;
                 (placed.x[lane], placed.y[lane], placed.z[lane]) = (at.x, at.y, at.z);
-                placed.side[lane] = u64::from(side_of(cells[i as usize]));
+                placed.side[lane] = u64::from(side_of((key >> 32) as u32));
             }
             place(set, projector, &mut placed);
-            for (lane, &i) in found.iter().enumerate() {
-                let (query, point) = (first as u32 + i, &points.rounded()[i as usize]);
-                self.keys.push(u64::from(cells[i as usize]) << 32 | self.all.len() as u64);
-                self.all.push(Open {
-                    query,
-                    base: point.primitive().unwrap_or(PrimitiveIndex::MAX),
+            for (lane, &key) in keys.iter().enumerate() {
+                all.push(Open {
+                    query: key as u32,
+                    base: points.rounded()[key as u32 as usize].primitive_or_most(),
                     u: placed.u[lane],
                     v: placed.v[lane],
                     w_low: placed.w_low[lane],
@@ -148,6 +133,7 @@ impl OpenQueries {
                 });
             }
         }
+        all
     }
 
     /// Sorts the keys by cell; none is above `cells`.
@@ -185,7 +171,7 @@ mod tests {
     use crate::visibility::{RoundedPoint, SurfacePoint};
     use glam::{DVec3, Vec3};
 
-    /// What is known of a point, the second of a chunk that begins with query 3, whose cell is on the side that looks along x.
+    /// What is known of a point, the second of three, whose cell is on the side that looks along x.
     fn open(point: DVec3) -> Open {
         let point = SurfacePoint { position: point, ..SurfacePoint::bare(Vec3::ZERO).expect("finite") };
         let (projector, exact) = (Projector::new(Vec3::new(1.0, 0.0, 0.0), 8), [point; 3]);
@@ -193,11 +179,8 @@ mod tests {
         let points = Points::new(&rounded, &exact);
         let of_set = |set: InstructionSet| {
             let mut open = OpenQueries::default();
-            let undecided = [false, true, false];
-            let chunk = Chunk { first: 3, points, cells: &[7, 8, 9], undecided: &undecided };
-            open.extend(set, &projector, &chunk, |_| 0);
-            assert_eq!(open.keys, [8 << 32]);
-            open.all[0]
+            open.push(8, 1);
+            open.placed(set, &projector, points, |cell| cell - 8)[0]
         };
         let sets = [InstructionSet::Avx2, InstructionSet::Avx512];
         let portable = of_set(InstructionSet::Portable);
@@ -214,7 +197,7 @@ mod tests {
     #[test]
     fn places_and_depths_are_those_of_the_side() {
         let found = open(DVec3::new(5.0, 1.0, -4.0));
-        assert_eq!((found.query, found.base), (4, PrimitiveIndex::MAX));
+        assert_eq!((found.query, found.base), (1, u32::MAX));
         assert_eq!((found.u, found.v), (5.0, 0.0));
         assert!(
             found.w_low < 0.25 && found.w_low > 0.249_999 && found.w_high > 0.25 && found.w_high < 0.250_001
@@ -236,7 +219,7 @@ mod tests {
     fn keys_are_sorted_by_cell_and_keep_their_order() {
         for (count, cells) in [(10u64, 7u64), (5000, 3), (5000, 4096), (20_000, 5_000_000)] {
             let key = |i: u64| (i * 7_654_321 % cells) << 32 | i;
-            let mut open = OpenQueries { keys: (0..count).map(key).collect(), ..OpenQueries::default() };
+            let mut open = OpenQueries { keys: (0..count).map(key).collect() };
             let mut expected = open.keys.clone();
             expected.sort_unstable();
             open.sort(cells as usize);

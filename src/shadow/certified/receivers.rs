@@ -1,6 +1,7 @@
 //! Receivers filed in cells: where anybody asks, and how far away the farthest in each cell is.
 
 use super::projection::{Projected, Projector, cell_and_border, larger};
+use super::selected::{CHUNK, Selected};
 use super::tiles::{AREA, TileGrid, Tiles};
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
@@ -13,9 +14,6 @@ use crate::shadow::light_buffer::cells::{Cells, Located};
 use crate::visibility::{Points, RoundedPoint, SurfacePoint};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
-
-/// Receivers of a task.
-pub(super) const CHUNK: usize = 4096;
 
 /// In place of a cell, for a receiver that f32 leaves open, and in the end for one in the light itself.
 pub(super) const OPEN: u32 = u32::MAX;
@@ -151,7 +149,7 @@ impl Whereabouts<'_> {
         let Whereabouts { tiles, places, depths } = self;
         locate(set, projector, grid, points.rounded(), tiles, places, depths);
         let mut open = [0; CHUNK];
-        for &i in places_of(OPEN, tiles, points.exact(), &mut open) {
+        for &i in places_of(OPEN, tiles, Selected::all(points), &mut open) {
             let i = usize::from(i);
             (tiles[i], places[i], depths[i]) = match locate_exactly(projector, scene, &points.exact()[i]) {
                 Some((at, w)) => {
@@ -171,7 +169,7 @@ const FEW: usize = 16;
 pub(super) fn places_of<'a>(
     mark: u32,
     marks: &[u32],
-    points: &[SurfacePoint],
+    points: Selected<'_>,
     found: &'a mut [u16; CHUNK],
 ) -> &'a [u16] {
     let mut count = 0;
@@ -180,7 +178,7 @@ pub(super) fn places_of<'a>(
             continue;
         }
         for (i, _) in (first..).zip(some).filter(|(_, of_point)| **of_point == mark) {
-            let point = &points[usize::from(i)];
+            let point = points.exact(usize::from(i));
             fetch(&point.position);
             fetch(&point.source);
             found[count] = i;

@@ -2,10 +2,10 @@
 
 use super::answer::{Asked, QUERIES, sum};
 use super::bins::{Bins, Budget};
-use super::certificate::{Header, Run};
 use super::lists::{Lister, Stored};
 use super::projection::Projector;
 use super::receivers::Filed;
+use super::stored::{Header, Run};
 use super::{Certified, Counters, MOST_BYTES, Work};
 use crate::error::Result;
 use crate::float_environment::StandardFloats;
@@ -52,7 +52,7 @@ impl Certified<'_> {
         let lister =
             Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
         let stored: Vec<_> = filed.tiles.stored().into_iter().map(|tile| Stored { level: 0, tile }).collect();
-        let lists = self.lists(&[lister], &stored)?;
+        let lists = self.lists(&[lister], None, &stored)?;
         let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
         let mut work = Work {
             bytes: (lists.bytes() + bin_bytes + filed.tiles.cells() * size_of::<u32>()) as u64,
@@ -68,6 +68,7 @@ impl Certified<'_> {
             size,
             projected: &projected,
             lists: &lists,
+            has_verdicts: false,
         };
         let Filed { cells, depths, .. } = &filed;
         work.counters = (points.par_chunks(QUERIES), cells.par_chunks(QUERIES), depths.par_chunks(QUERIES))

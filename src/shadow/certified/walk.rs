@@ -1,10 +1,10 @@
 //! Queries that headers leave open against the list of their cell, sixteen triangles at a time.
 
 use super::blockers::{Blockers, Extent, Verdict};
-use super::certificate::{Record, UNSORTED};
 use super::making::Lists;
 use super::open::Open;
 use super::projection::Projected;
+use super::stored::{Record, UNSORTED};
 use crate::geometry::LightSpace;
 use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::dispatch::for_instruction_sets;
@@ -56,19 +56,18 @@ impl<'a> Walk<'a> {
 
     /// Has what some portions later on need fetched.
     #[inline(always)]
-    fn fetch_ahead(&self, portions: &[Portion], open: &[Open]) {
+    fn fetch_ahead(&self, portions: &[Portion]) {
         if let Some(portion) = portions.get(2 * AHEAD) {
             portion.records.iter().take(FETCHED).step_by(RECORDS_OF_A_LINE).for_each(fetch);
         }
         if let Some(portion) = portions.get(AHEAD) {
-            portion.keys.iter().take(FETCHED).for_each(|&key| fetch(&open[key as u32 as usize]));
             for record in portion.records.iter().take(FETCHED) {
-                fetch(&self.scene.triangles[record.item.triangle() as usize]);
+                fetch(&self.scene.triangles[record.listed.triangle() as usize]);
             }
         }
         if let Some(portion) = portions.get(AHEAD / 2) {
             for record in portion.records.iter().take(FETCHED) {
-                let vertices = self.scene.triangles[record.item.triangle() as usize].vertices;
+                let vertices = self.scene.triangles[record.listed.triangle() as usize].vertices;
                 vertices.into_iter().for_each(|vertex| fetch(&self.projected[vertex as usize]));
             }
         }
@@ -121,18 +120,20 @@ fn walk_body(
     counters: &mut Counters,
 ) {
     let (mut blockers, mut live) = (Blockers::default(), Vec::new());
+    let mut first = 0;
     let portions = walk.portions(keys);
     for (number, portion) in portions.iter().enumerate() {
-        walk.fetch_ahead(&portions[number..], open);
+        walk.fetch_ahead(&portions[number..]);
         live.clear();
-        live.extend(portion.keys.iter().map(|&key| open[key as u32 as usize]));
+        live.extend_from_slice(&open[first..first + portion.keys.len()]);
+        first += portion.keys.len();
         walk_one(set, walk, portion.records, &mut blockers, &mut live, occluded, counters);
     }
 }
 
 for_instruction_sets! {
-    /// Sets those of `occluded` that something in the list of their cell blocks. In the lower half of a key is the place of an
-    /// open query, in the upper half its cell; those of a cell should follow each other.
+    /// Sets those of `occluded` that something in the list of their cell blocks. The cell of each open query is in the upper half of its key; those of a cell should
+    /// follow each other.
     pub(super) fn walk = walk_body, (
         walk: &Walk<'_>,
         open: &[Open],
