@@ -42,23 +42,16 @@ pub(super) struct Answering<'a> {
     open: OpenQueries,
     dark: [bool; CHUNK],
     undecided: [bool; CHUNK],
-    /// Which of a chunk are undecided.
-    numbers: Vec<u32>,
 }
 
 impl<'a> Answering<'a> {
     /// None yet.
     pub fn new(asked: &'a Asked<'a>) -> Answering<'a> {
-        Answering {
-            asked,
-            open: OpenQueries::default(),
-            dark: [false; CHUNK],
-            undecided: [false; CHUNK],
-            numbers: Vec::new(),
-        }
+        let (dark, undecided) = ([false; CHUNK], [false; CHUNK]);
+        Answering { asked, open: OpenQueries::default(), dark, undecided }
     }
 
-    /// Answers some of up to [`CHUNK`] more, the first of which has the number `first`, as far as headers and verdicts do. `occluded` are the answers of
+    /// Answers some of up to [`CHUNK`] more, the first of which has the number `first`, as far as headers do. `occluded` are the answers of
     /// all of these.
     pub fn add(
         &mut self,
@@ -78,16 +71,14 @@ impl<'a> Answering<'a> {
         for (&number, &dark) in points.numbers().iter().zip(&*dark) {
             occluded[number as usize] = dark;
         }
-        self.numbers.clear();
         for (eight, undecided) in undecided.chunks(8).enumerate() {
             // Mostly none of them.
-            if undecided.contains(&true) {
-                let numbers = (8 * eight as u32..).zip(undecided).filter(|(_, undecided)| **undecided);
-                self.numbers.extend(numbers.map(|(number, _)| number));
+            if !undecided.contains(&true) {
+                continue;
             }
-        }
-        for &i in &self.numbers {
-            self.open.push(cells[i as usize], first as u32 + points.numbers()[i as usize]);
+            for (i, _) in (8 * eight..).zip(undecided).filter(|(_, undecided)| **undecided) {
+                self.open.push(cells[i], first as u32 + points.numbers()[i]);
+            }
         }
     }
 
