@@ -222,6 +222,16 @@ plant one-cell-speaks-for-the-triangle $cells/by_triangle.rs \
     only_what_all_cells_agree_on_is_answered \
     every_point_of_every_triangle_gets_the_exact_answer
 
+plant rounding-of-a-query-forgotten $cells/pairs.rs \
+    '(16.0 * ROUNDOFF) + of[2].abs() * (4.0 * ROUNDOFF),' '(16.0 * ROUNDOFF) * 0.0,' \
+    what_is_certain_is_true \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
+plant last-row-of-tiles-forgotten $cells/windows.rs \
+    'high.wrapping_add(1).min(start + count)' 'high.min(start + count)' \
+    every_tile_has_a_number_and_rows_find_those_within \
+    every_exact_tester_is_right_in_every_case_at_every_resolution
+
 plant part-of-a-tile-forgotten $cells/levels.rs \
     'flat_map(move |y| (0..FINER).map' 'flat_map(move |y| (1..FINER).map' \
     every_exact_tester_is_right_in_every_case_at_every_resolution

@@ -62,7 +62,7 @@ impl<'a> IrregularZBuffer<'a> {
         answers: &mut [bool],
     ) -> Result<Counters> {
         let resolution = match self.resolution {
-            Resolution::Auto => whole.automatic_resolution(points.len()),
+            Resolution::Auto => whole.automatic_resolution(points),
             Resolution::Cells(cells) => cells,
         };
         let work = whole.occluded(points, resolution, answers)?;

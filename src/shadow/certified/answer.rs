@@ -85,7 +85,7 @@ impl<'a> Answering<'a> {
     /// Answers what headers left open of all these.
     pub fn finish(mut self, points: Points<'_>, occluded: &mut [bool]) -> Counters {
         let Asked { certified, projector, space, projected, lists, .. } = *self.asked;
-        let Certified { scene, set, .. } = certified;
+        let Certified { scene, light, set, .. } = certified;
         self.open.sort(lists.headers.len());
         if self.asked.has_verdicts {
             ask_verdicts(lists, points.rounded(), &mut self.open.keys, occluded);
@@ -93,7 +93,8 @@ impl<'a> Answering<'a> {
         let open = self.open.placed(set, projector, points, |cell| lists.side_of(cell));
         let mut counters =
             Counters { cells: points.len() as u64, lists: open.len() as u64, ..Counters::default() };
-        let shared = Walk { scene, space, points: points.exact(), projected, lists, delta: projector.delta };
+        let shared =
+            Walk { scene, light, space, points: points.exact(), projected, lists, delta: projector.delta };
         walk(set, &shared, &open, &self.open.keys, occluded, &mut counters);
         counters
     }

@@ -1,7 +1,7 @@
 //! Which triangles each tile has to look at: a linked list for each tile, in one array for each worker.
 
 use super::large::Large;
-use super::tiles::TileGrid;
+use super::windows::Windows;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// How many bytes all workers may take together.
@@ -101,14 +101,14 @@ pub(super) struct Bins<'b> {
 
 impl<'b> Bins<'b> {
     /// Nothing yet.
-    pub fn new(grid: &TileGrid, budget: &'b Budget, most_callers: usize) -> Bins<'b> {
+    pub fn new(windows: &Windows, budget: &'b Budget, most_callers: usize) -> Bins<'b> {
         // The list of a tile without any is the link at 0, of which it has none.
         let links = vec![Link::default()];
-        let heads = vec![Head::default(); grid.count()];
+        let heads = vec![Head::default(); windows.count()];
         Bins { heads, links, large: Vec::new(), budget, granted: 0, most_callers, overflowed: false }
     }
 
-    /// Enters something in a tile of the grid.
+    /// Enters something in a tile.
     #[inline(always)]
     pub fn push(&mut self, tile: u32, caller: Caller) {
         let head = self.heads[tile as usize];
@@ -199,12 +199,13 @@ impl Drop for Bins<'_> {
 }
 
 /// The tiles at which one of several workers found something to look at.
-pub(super) fn touched(bins: &[Bins], grid: &TileGrid) -> impl Iterator<Item = u32> {
-    (0..grid.count() as u32).filter(|&tile| bins.iter().any(|bins| !bins.is_empty(tile)))
+pub(super) fn touched(bins: &[Bins], windows: &Windows) -> impl Iterator<Item = u32> {
+    (0..windows.count() as u32).filter(|&tile| bins.iter().any(|bins| !bins.is_empty(tile)))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::tiles::TileGrid;
     use super::*;
 
     fn of(bins: &Bins, tile: u32) -> Vec<Caller> {
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn lists_are_by_tile() {
         let budget = Budget::new(1 << 30);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget, usize::MAX);
+        let mut bins = Bins::new(&Windows::whole(&TileGrid::new(8)), &budget, usize::MAX);
         (0..5).for_each(|i| bins.push(i % 2, Caller::Small(i)));
         bins.push(1, Caller::Large(0));
         assert_eq!(of(&bins, 0), [0, 2, 4].map(Caller::Small));
@@ -228,7 +229,7 @@ mod tests {
     #[test]
     fn long_lists_are_whole() {
         let budget = Budget::new(1 << 30);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget, usize::MAX);
+        let mut bins = Bins::new(&Windows::whole(&TileGrid::new(8)), &budget, usize::MAX);
         let count = 3 * Link::MOST as u32 + 1;
         (0..count).for_each(|i| bins.push(i % 2, Caller::Small(i)));
         for tile in 0..2 {
@@ -242,7 +243,7 @@ mod tests {
     #[test]
     fn it_ends_soon_after_the_most_callers() {
         let budget = Budget::new(1 << 30);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget, 1000);
+        let mut bins = Bins::new(&Windows::whole(&TileGrid::new(8)), &budget, 1000);
         let entered = (0..).take_while(|_| {
             bins.push(0, Caller::Small(7));
             !bins.overflowed
@@ -253,7 +254,7 @@ mod tests {
     #[test]
     fn nothing_is_entered_beyond_the_budget_and_it_says_so() {
         let budget = Budget::new(Budget::PORTION);
-        let mut bins = Bins::new(&TileGrid::new(8), &budget, usize::MAX);
+        let mut bins = Bins::new(&Windows::whole(&TileGrid::new(8)), &budget, usize::MAX);
         let mut entered = 0;
         while !bins.overflowed {
             bins.push(0, Caller::Small(7));

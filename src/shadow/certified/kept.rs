@@ -13,6 +13,7 @@ use super::selected::{CHUNK, Selected};
 use super::stored::{Header, Record, Run};
 use super::survey::Cast;
 use super::tiles::{AREA, TileGrid};
+use super::windows::Windows;
 use super::{BuildQuality, Certified, Counters, MOST_BYTES, MOST_CELLS, Work};
 use crate::error::Result;
 use crate::float_environment::StandardFloats;
@@ -96,11 +97,12 @@ impl<'a> Certified<'a> {
         let projector = Projector::new(self.light, FEW_CELLS);
         let grid = TileGrid::new(FEW_CELLS);
         let (projected, horizon) = (self.projected(&projector), Horizon::endless(&grid));
-        let mut survey = self.survey(projector, grid, &horizon, &projected);
+        let windows = Windows::whole(&grid);
+        let mut survey = self.survey(projector, windows, &horizon, &projected);
         let budget = Budget::new(memory.left().min(MOST_BYTES) as usize);
         let Some(bins) = self.bins(&mut survey, &budget) else { return LEAST_CELLS };
         // Of small cells the crowded tiles have as many as all would, if the others had them.
-        let tiles = touched(&bins, &grid).map(|tile| match is_crowded(&bins, tile) {
+        let tiles = touched(&bins, &windows).map(|tile| match is_crowded(&bins, tile) {
             true => f64::from(FINER * FINER),
             false => 1.0,
         });

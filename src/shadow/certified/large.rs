@@ -107,16 +107,16 @@ impl Survey<'_> {
     }
 
     fn enter(&self, large: Large, bins: &mut Bins) {
-        let tile_of = |cell: u32| cell & !(EDGE - 1);
-        let ([x0, x1], [y0, y1]) = (large.cells.x, large.cells.y);
+        let tiles = |cells: [u32; 2]| cells.map(|cell| cell / EDGE);
+        let (side, columns, rows) = (large.face.index() as u32, tiles(large.cells.x), tiles(large.cells.y));
         let number = bins.next_large();
         let keys = self.horizon.of_tiles();
         let mut is_entered = false;
-        for y in (tile_of(y0)..=y1).step_by(EDGE as usize) {
-            for x in (tile_of(x0)..=x1).step_by(EDGE as usize) {
-                let tile = self.grid.tile(large.face.index() as u32, x, y);
+        for (row, columns, first) in self.windows.rows(side, columns, rows) {
+            for (tile, column) in (first..).zip(columns) {
                 let key = keys[tile as usize];
-                if key != 0 && large.nearest([x, y], EDGE).is_some_and(|w| key > Horizon::key(w)) {
+                let corner = [column * EDGE, row * EDGE];
+                if key != 0 && large.nearest(corner, EDGE).is_some_and(|w| key > Horizon::key(w)) {
                     bins.push(tile, number);
                     is_entered = true;
                 }

@@ -10,7 +10,8 @@ use super::projection::{Projected, Projector};
 use super::receivers::Horizon;
 use super::stored::{Header, Run};
 use super::survey::Cast;
-use super::tiles::{AREA, TileGrid};
+use super::tiles::AREA;
+use super::windows::Windows;
 
 /// Triangles in a tile above which it is divided.
 const CROWD: usize = 16;
@@ -18,7 +19,7 @@ const CROWD: usize = 16;
 /// What is made at one level.
 struct Layer<'b> {
     projector: Projector,
-    grid: TileGrid,
+    windows: Windows,
     /// The scene's vertices.
     projected: Vec<Projected>,
     horizon: Horizon,
@@ -56,14 +57,14 @@ impl Certified<'_> {
         let mut horizon = Horizon::endless(&all.levels.grids[0]);
         for level in 0..levels {
             let coarser = FINER.pow((levels - 1 - level) as u32);
-            let (projector, grid) =
-                (Projector::new(self.light, resolution / coarser), all.levels.grids[level]);
+            let projector = Projector::new(self.light, resolution / coarser);
+            let windows = Windows::whole(&all.levels.grids[level]);
             let projected = self.projected(&projector);
-            let mut survey = self.survey(projector, grid, &horizon, &projected);
+            let mut survey = self.survey(projector, windows, &horizon, &projected);
             let bins = self.bins(&mut survey, budget)?;
             all.cast = survey.cast;
             let next = all.divide(level, &bins);
-            all.layers.push(Layer { projector, grid, projected, horizon, bins });
+            all.layers.push(Layer { projector, windows, projected, horizon, bins });
             let Some(next) = next else { break };
             horizon = next;
         }
@@ -79,9 +80,9 @@ impl Certified<'_> {
     ) -> Option<Lists> {
         let mut listers = Vec::with_capacity(all.layers.len());
         for layer in &all.layers {
-            let Layer { projector, grid, projected, horizon, bins } = layer;
-            let (scene, projector, grid) = (self.scene, *projector, *grid);
-            listers.push(Lister { scene, projector, grid, horizon, projected, bins, budget });
+            let Layer { projector, windows, projected, horizon, bins } = layer;
+            let (scene, projector, windows) = (self.scene, *projector, *windows);
+            listers.push(Lister { scene, projector, windows, horizon, projected, bins, budget });
         }
         let mut lists = self.lists(&listers, states, &all.stored)?;
         lists.shrink();
@@ -93,11 +94,11 @@ impl Layers<'_> {
     /// Gives the tiles of a level cells, or divides them, and returns where the next level has any. Where no tile is crowded all are divided: a small
     /// scene needs few cells, however small they are.
     fn divide(&mut self, level: usize, bins: &[Bins<'_>]) -> Option<Horizon> {
-        let grid = self.levels.grids[level];
+        let windows = Windows::whole(&self.levels.grids[level]);
         let finer = self.levels.grids.get(level + 1).copied();
         let mut parts = Vec::new();
-        let is_any_crowded = finer.is_some() && touched(bins, &grid).any(|tile| is_crowded(bins, tile));
-        for tile in touched(bins, &grid) {
+        let is_any_crowded = finer.is_some() && touched(bins, &windows).any(|tile| is_crowded(bins, tile));
+        for tile in touched(bins, &windows) {
             if finer.is_some() && (is_crowded(bins, tile) || !is_any_crowded) {
                 parts.extend(self.levels.divide(level, tile));
             } else {

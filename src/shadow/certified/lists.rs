@@ -16,6 +16,7 @@ use super::second_look::TileTriangles;
 use super::small::Patches;
 use super::stored::{Header, Record, Run};
 use super::tiles::{AREA, BLOCK, BLOCK_EDGE, EDGE, TileGrid};
+use super::windows::Windows;
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::masks::Bits;
@@ -26,7 +27,7 @@ use crate::shadow::light_buffer::cube::Face;
 pub(super) struct Lister<'a> {
     pub scene: &'a Scene,
     pub projector: Projector,
-    pub grid: TileGrid,
+    pub windows: Windows,
     pub horizon: &'a Horizon,
     /// The scene's vertices.
     pub projected: &'a [Projected],
@@ -34,7 +35,7 @@ pub(super) struct Lister<'a> {
     pub budget: &'a Budget,
 }
 
-/// A tile that has cells: its number in the grid of its level, for each of which there is a [`Lister`].
+/// A tile that has cells: its number in the windows of its level, for each of which there is a [`Lister`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stored {
     pub level: u32,
@@ -168,7 +169,7 @@ impl Lister<'_> {
         let Scratch { triangles, facing, irregular, corners, patches, edges, cells, .. } = scratch;
         edges.find(triangles, facing, irregular);
         cells.clear();
-        let (_, corner) = self.grid.corner(tile);
+        let (_, corner) = self.windows.corner(tile);
         let keys = self.horizon.tile(first_cell);
         let seen = Seen { corner, keys };
         for (sixteen, of_sixteen) in corners.iter().enumerate() {
@@ -289,7 +290,7 @@ fn list_body(
         let first = i * AREA as usize;
         lister.enter(set, tile, first_cell + first, scratch);
         part.entries += scratch.cells.count() as u64;
-        let (side, corner) = lister.grid.corner(tile);
+        let (side, corner) = lister.windows.corner(tile);
         let Scratch { triangles, numbers, irregular, edges, cells, entries, judge, .. } = scratch;
         if states.is_some() {
             judge.begin(numbers.len());

@@ -118,7 +118,7 @@ impl Certified<'_> {
         let next = AtomicUsize::new(0);
         let worker = |_| {
             let _floats = StandardFloats::new();
-            let mut bins = Bins::new(&survey.grid, budget, most_callers);
+            let mut bins = Bins::new(&survey.windows, budget, most_callers);
             loop {
                 let first = next.fetch_add(TRIANGLES, Relaxed);
                 if first >= count || bins.overflowed {
@@ -165,7 +165,7 @@ impl Certified<'_> {
             entries += part.entries;
             records.push(part.records);
         }
-        let side = |stored: &Stored| listers[stored.level as usize].grid.corner(stored.tile).0 as u8;
+        let side = |stored: &Stored| listers[stored.level as usize].windows.corner(stored.tile).0 as u8;
         let sides = tiles.iter().map(side).collect();
         Some(Lists { headers, sides, runs, records, kinds, entries })
     }

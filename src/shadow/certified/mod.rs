@@ -38,6 +38,7 @@ mod levels;
 mod lists;
 mod making;
 mod open;
+mod pairs;
 mod projection;
 mod pyramids;
 mod receivers;
@@ -50,6 +51,7 @@ mod tiles;
 mod verdict;
 mod view;
 mod walk;
+mod windows;
 
 pub use kept::Kept;
 
@@ -66,7 +68,7 @@ use rayon::prelude::*;
 use receivers::Horizon;
 use selected::CHUNK;
 use survey::{Cast, Survey};
-use tiles::TileGrid;
+use windows::Windows;
 
 /// The largest number of cells along an edge.
 pub const MOST_CELLS: u32 = 4096;
@@ -185,7 +187,7 @@ impl Certified<'_> {
     fn survey<'s>(
         &self,
         projector: Projector,
-        grid: TileGrid,
+        windows: Windows,
         horizon: &'s Horizon,
         projected: &'s [Projected],
     ) -> Survey<'s>
@@ -193,7 +195,7 @@ impl Certified<'_> {
         Self: 's,
     {
         let (scene, cast, duplicates) = (self.scene, self.cast(), Vec::new());
-        Survey { scene, cast, duplicates, projector, grid, horizon, projected }
+        Survey { scene, cast, duplicates, projector, windows, horizon, projected }
     }
 
     /// Which triangles are cast.

@@ -2,7 +2,8 @@
 
 use super::projection::{Projected, Projector, cell_and_border, larger};
 use super::selected::{CHUNK, Selected};
-use super::tiles::{AREA, TileGrid, Tiles};
+use super::tiles::{AREA, EDGE, TileGrid, Tiles};
+use super::windows::Windows;
 use crate::float_environment::StandardFloats;
 use crate::geometry::LightSpace;
 use crate::geometry::batch::InstructionSet;
@@ -29,7 +30,7 @@ pub(super) const MOST_ERROR: f32 = 1.0 / 512.0;
 pub(super) struct Horizon {
     /// Nothing if all may ask from wherever they are.
     cells: Option<Vec<u32>>,
-    /// The largest of each tile of the grid.
+    /// The largest of each tile, and 0 for those outside of all windows.
     tiles: Vec<u32>,
 }
 
@@ -37,12 +38,14 @@ pub(super) struct Horizon {
 static ENDLESS: [u32; AREA as usize] = [u32::MAX; AREA as usize];
 
 impl Horizon {
-    fn new(tiles: &Tiles, keys: &[AtomicU32]) -> Horizon {
-        let cells: Vec<u32> = keys[..tiles.cells()].par_iter().map(|key| key.load(Relaxed)).collect();
+    /// Of stored tiles, which are within the windows.
+    fn new(tiles: &[u32], windows: &Windows, keys: &[AtomicU32]) -> Horizon {
+        let cells: Vec<u32> =
+            keys[..tiles.len() * AREA as usize].par_iter().map(|key| key.load(Relaxed)).collect();
         let largest = |keys: &[u32]| keys.iter().copied().max().expect("a tile has cells");
         let of_stored: Vec<u32> = cells.par_chunks(AREA as usize).map(largest).collect();
-        let mut of_tiles = vec![0; tiles.grid.count()];
-        for (tile, key) in tiles.stored().into_iter().zip(of_stored) {
+        let mut of_tiles = vec![0; windows.count() + 1];
+        for (&tile, key) in tiles.iter().zip(of_stored) {
             of_tiles[tile as usize] = key;
         }
         Horizon { cells: Some(cells), tiles: of_tiles }
@@ -50,12 +53,14 @@ impl Horizon {
 
     /// Nothing is beyond it.
     pub fn endless(grid: &TileGrid) -> Horizon {
-        Horizon { cells: None, tiles: vec![u32::MAX; grid.count()] }
+        let mut of_tiles = vec![u32::MAX; grid.count() + 1];
+        of_tiles[grid.count()] = 0;
+        Horizon { cells: None, tiles: of_tiles }
     }
 
     /// Nothing is beyond it in these tiles, and nobody asks in any other.
     pub fn endless_in(grid: &TileGrid, tiles: &[u32]) -> Horizon {
-        let mut of_tiles = vec![0; grid.count()];
+        let mut of_tiles = vec![0; grid.count() + 1];
         tiles.iter().for_each(|&tile| of_tiles[tile as usize] = u32::MAX);
         Horizon { cells: None, tiles: of_tiles }
     }
@@ -75,7 +80,7 @@ impl Horizon {
         }
     }
 
-    /// The largest key of each tile of the grid.
+    /// The largest key of each tile, and 0 for those outside of all windows.
     #[inline(always)]
     pub fn of_tiles(&self) -> &[u32] {
         &self.tiles
@@ -92,7 +97,10 @@ impl Horizon {
 
 /// Receivers by cell.
 pub(super) struct Filed {
-    pub tiles: Tiles,
+    /// Around all tiles that receivers lie in.
+    pub windows: Windows,
+    /// These tiles, in the order of their cells.
+    pub tiles: Vec<u32>,
     /// The cell that each one's exact point lies in, or [`OPEN`] for one in the light.
     pub cells: Vec<u32>,
     /// As [`Whereabouts::depths`].
@@ -120,8 +128,14 @@ impl Filed {
                 whereabouts.find(set, projector, &grid, scene, points);
                 file(&tiles, &horizon, cells, places, depths);
             });
-        let horizon = Horizon::new(&tiles, &horizon);
-        Filed { tiles, cells, depths, horizon }
+        let mut tiles = tiles.stored();
+        let windows = Windows::around(&grid, &tiles);
+        for tile in &mut tiles {
+            let (side, [x, y]) = grid.corner(*tile);
+            *tile = windows.tile(side, x / EDGE, y / EDGE);
+        }
+        let horizon = Horizon::new(&tiles, &windows, &horizon);
+        Filed { windows, tiles, cells, depths, horizon }
     }
 }
 

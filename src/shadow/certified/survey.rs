@@ -5,7 +5,8 @@ use super::corners::{Corners, LANES};
 use super::is_plain;
 use super::projection::{Projected, Projector, cell_and_border};
 use super::receivers::Horizon;
-use super::tiles::{EDGE, TileGrid};
+use super::tiles::EDGE;
+use super::windows::Windows;
 use crate::geometry::batch::InstructionSet;
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::masks::{Bits, bits};
@@ -30,7 +31,8 @@ pub(super) struct Survey<'a> {
     /// For each triangle whether it is left out as a duplicate; of none if there is nothing here.
     pub duplicates: Vec<bool>,
     pub projector: Projector,
-    pub grid: TileGrid,
+    /// Where anybody asks.
+    pub windows: Windows,
     pub horizon: &'a Horizon,
     /// The scene's vertices.
     pub projected: &'a [Projected],
@@ -57,7 +59,6 @@ impl Survey<'_> {
     fn spans(&self, corners: &Corners) -> Spans {
         let mut spans = Spans::default();
         let (delta, end) = (self.projector.delta, self.projector.resolution as f32);
-        let per_edge = self.grid.per_edge();
         let keys = self.horizon.of_tiles();
         let last = keys.len() - 1;
         for i in 0..LANES {
@@ -76,8 +77,7 @@ impl Survey<'_> {
             spans.key[i] = if is_on_one_side { key } else { 0 };
             spans.on_one_side[i] = u32::from(is_on_one_side);
             spans.small[i] = u32::from(is_small);
-            let tile = corners.side[i].wrapping_mul(per_edge).wrapping_add(rows[0]);
-            let tile = tile.wrapping_mul(per_edge).wrapping_add(columns[0]) as usize;
+            let tile = self.windows.tile(corners.side[i], columns[0], rows[0]) as usize;
             let is_one = (columns[0] == columns[1]) & (rows[0] == rows[1]) & is_small;
             // SAFETY: no more than the last.
             let key = unsafe { *keys.get_unchecked(if tile < last { tile } else { last }) };
@@ -89,11 +89,10 @@ impl Survey<'_> {
     /// Calls for the tiles of a span with a receiver that the triangle may be in front of, until the call says that it is enough.
     #[inline(always)]
     fn each_tile(&self, spans: &Spans, lane: usize, side: u32, mut call: impl FnMut(u32) -> bool) {
-        let (per_edge, key) = (self.grid.per_edge(), spans.key[lane]);
-        for row in spans.rows[0][lane]..=spans.rows[1][lane] {
-            let first = (side * per_edge + row) * per_edge;
-            for tile in first + spans.columns[0][lane]..=first + spans.columns[1][lane] {
-                if self.horizon.of_tiles()[tile as usize] > key && call(tile) {
+        let ends = |of: &[[u32; LANES]; 2]| [of[0][lane], of[1][lane]];
+        for (_, columns, first) in self.windows.rows(side, ends(&spans.columns), ends(&spans.rows)) {
+            for tile in first..first + columns.len() as u32 {
+                if self.horizon.of_tiles()[tile as usize] > spans.key[lane] && call(tile) {
                     return;
                 }
             }

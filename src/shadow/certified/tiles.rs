@@ -64,17 +64,16 @@ impl TileGrid {
 
 /// Where the cells of each tile are: tiles get their place when somebody first asks for it.
 pub(super) struct Tiles {
-    pub grid: TileGrid,
-    /// One more than the number of each tile that is stored, 0 for others.
+    /// One more than the number of each tile that is stored, 0 for others. Pages that nobody writes to cost nothing.
     numbers: Vec<AtomicU32>,
-    count: Mutex<u32>,
+    /// In the order of their cells.
+    stored: Mutex<Vec<u32>>,
 }
 
 impl Tiles {
     /// None is stored yet.
     pub fn new(grid: TileGrid) -> Tiles {
-        let numbers = (0..grid.count()).map(|_| AtomicU32::new(0)).collect();
-        Tiles { grid, numbers, count: Mutex::new(0) }
+        Tiles { numbers: bytemuck::zeroed_vec(grid.count()), stored: Mutex::default() }
     }
 
     /// The first cell of a tile, which is stored from now on.
@@ -88,29 +87,18 @@ impl Tiles {
 
     #[cold]
     fn claim_new(&self, tile: u32) -> u32 {
-        let mut count = self.count.lock().expect("no panic while it is held");
+        let mut stored = self.stored.lock().expect("no panic while it is held");
         let number = &self.numbers[tile as usize];
         if number.load(Relaxed) == 0 {
-            *count += 1;
-            number.store(*count, Relaxed);
+            stored.push(tile);
+            number.store(stored.len() as u32, Relaxed);
         }
         (number.load(Relaxed) - 1) * AREA
     }
 
-    /// Cells that are stored.
-    pub fn cells(&self) -> usize {
-        (*self.count.lock().expect("no panic while it is held") * AREA) as usize
-    }
-
     /// The tiles that are stored, in the order of their cells.
-    pub fn stored(&self) -> Vec<u32> {
-        let mut stored = vec![0; self.cells() / AREA as usize];
-        for (tile, number) in (0..).zip(&self.numbers) {
-            if let Some(number) = number.load(Relaxed).checked_sub(1) {
-                stored[number as usize] = tile;
-            }
-        }
-        stored
+    pub fn stored(self) -> Vec<u32> {
+        self.stored.into_inner().expect("no panic while it was held")
     }
 }
 
@@ -138,7 +126,6 @@ mod tests {
         let tiles = Tiles::new(grid);
         let (one, other) = (grid.tile(5, 19, 19), grid.tile(0, 8, 0));
         assert_eq!([tiles.claim(one), tiles.claim(other), tiles.claim(one)], [0, 64, 0]);
-        assert_eq!(tiles.cells(), 128);
         assert_eq!(tiles.stored(), [one, other]);
         assert_eq!(grid.count(), 54);
     }

@@ -6,6 +6,7 @@ use super::lists::{Lister, Stored};
 use super::projection::Projector;
 use super::receivers::Filed;
 use super::stored::{Header, Run};
+use super::tiles::AREA;
 use super::{Certified, Counters, MOST_BYTES, Work};
 use crate::error::Result;
 use crate::float_environment::StandardFloats;
@@ -42,20 +43,27 @@ impl Certified<'_> {
         let projector = Projector::new(self.light, resolution);
         let filed = Filed::new(self.set, &projector, scene, points);
         let projected = self.projected(&projector);
-        let grid = filed.tiles.grid;
-        let cell_bytes = filed.tiles.cells() * (size_of::<Header>() + size_of::<Run>() + size_of::<u32>())
-            + grid.count() * 2 * size_of::<u32>();
+        let Filed { windows, horizon, .. } = &filed;
+        let cells = filed.tiles.len() * AREA as usize;
+        let cell_bytes = cells * (size_of::<Header>() + size_of::<Run>() + size_of::<u32>())
+            + windows.count() * size_of::<u32>();
         let budget = Budget::new(memory.left().saturating_sub(cell_bytes as u64).min(MOST_BYTES) as usize);
-        let horizon = &filed.horizon;
-        let mut survey = self.survey(projector, grid, horizon, &projected);
+        let mut survey = self.survey(projector, *windows, horizon, &projected);
         let bins = self.bins(&mut survey, &budget)?;
-        let lister =
-            Lister { scene, projector, grid, horizon, projected: &projected, bins: &bins, budget: &budget };
-        let stored: Vec<_> = filed.tiles.stored().into_iter().map(|tile| Stored { level: 0, tile }).collect();
+        let lister = Lister {
+            scene,
+            projector,
+            windows: *windows,
+            horizon,
+            projected: &projected,
+            bins: &bins,
+            budget: &budget,
+        };
+        let stored: Vec<_> = filed.tiles.iter().map(|&tile| Stored { level: 0, tile }).collect();
         let lists = self.lists(&[lister], None, &stored)?;
         let bin_bytes: usize = bins.iter().map(Bins::bytes).sum();
         let mut work = Work {
-            bytes: (lists.bytes() + bin_bytes + filed.tiles.cells() * size_of::<u32>()) as u64,
+            bytes: (lists.bytes() + bin_bytes + cells * size_of::<u32>()) as u64,
             ..lists.work(resolution)
         };
         drop(bins);

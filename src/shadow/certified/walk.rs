@@ -3,6 +3,7 @@
 use super::blockers::{Blockers, Extent, Verdict};
 use super::making::Lists;
 use super::open::Open;
+use super::pairs::Pairs;
 use super::projection::Projected;
 use super::stored::{Record, UNSORTED};
 use crate::geometry::LightSpace;
@@ -10,14 +11,15 @@ use crate::geometry::batch::{InstructionSet, LANES};
 use crate::geometry::dispatch::for_instruction_sets;
 use crate::geometry::fetch::fetch;
 use crate::geometry::masks::Bits;
-use crate::geometry::occlusion::PreciseQuery;
 use crate::scene::Scene;
-use crate::shadow::{Counters, precise};
+use crate::shadow::Counters;
 use crate::visibility::SurfacePoint;
+use glam::Vec3;
 
 /// What all queries of a light share.
 pub(super) struct Walk<'a> {
     pub scene: &'a Scene,
+    pub light: Vec3,
     pub space: &'a LightSpace,
     pub points: &'a [SurfacePoint],
     /// The scene's vertices.
@@ -74,14 +76,23 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// The places of one cell after the other.
+#[derive(Default)]
+struct Places {
+    blockers: Blockers,
+    /// What is left open, of all cells.
+    pairs: Pairs,
+    /// Queries that are not dark yet.
+    live: Vec<Open>,
+}
+
 /// All queries of one cell against its list, sixteen triangles at a time.
 #[inline(always)]
 fn walk_one(
     set: InstructionSet,
     walk: &Walk<'_>,
     list: &[Record],
-    blockers: &mut Blockers,
-    live: &mut Vec<Open>,
+    Places { blockers, pairs, live }: &mut Places,
     occluded: &mut [bool],
     counters: &mut Counters,
 ) {
@@ -98,9 +109,11 @@ fn walk_one(
         for i in 0..live.len() {
             let Verdict { blocked, open } = blockers.against(set, &live[i]);
             let query = live[i];
-            let mut is_dark = blocked != 0;
+            let is_dark = blocked != 0;
             if open != 0 && !is_dark {
-                is_dark = any_blocks(walk, blockers, &query, open, counters);
+                for lane in Bits(open) {
+                    pairs.push(walk, query.query, blockers.triangle(lane));
+                }
             }
             occluded[query.query as usize] |= is_dark;
             live[left] = query;
@@ -119,16 +132,20 @@ fn walk_body(
     occluded: &mut [bool],
     counters: &mut Counters,
 ) {
-    let (mut blockers, mut live) = (Blockers::default(), Vec::new());
+    let mut places = Places::default();
     let mut first = 0;
     let portions = walk.portions(keys);
     for (number, portion) in portions.iter().enumerate() {
         walk.fetch_ahead(&portions[number..]);
-        live.clear();
-        live.extend_from_slice(&open[first..first + portion.keys.len()]);
+        places.live.clear();
+        places.live.extend_from_slice(&open[first..first + portion.keys.len()]);
         first += portion.keys.len();
-        walk_one(set, walk, portion.records, &mut blockers, &mut live, occluded, counters);
+        walk_one(set, walk, portion.records, &mut places, occluded, counters);
+        if places.pairs.are_many() {
+            places.pairs.decide(set, walk, occluded, counters);
+        }
     }
+    places.pairs.decide(set, walk, occluded, counters);
 }
 
 for_instruction_sets! {
@@ -141,21 +158,4 @@ for_instruction_sets! {
         occluded: &mut [bool],
         counters: &mut Counters,
     )
-}
-
-/// Behind the float filter: whether one of those triangles blocks that have a bit in `lanes`.
-#[cold]
-fn any_blocks(
-    walk: &Walk<'_>,
-    blockers: &Blockers,
-    open: &Open,
-    lanes: u32,
-    counters: &mut Counters,
-) -> bool {
-    let point = &walk.points[open.query as usize];
-    let query = PreciseQuery::new(walk.space, point.position, || point.exact(walk.scene));
-    Bits(lanes).any(|lane| {
-        counters.undecided += 1;
-        precise::blocks(walk.scene, blockers.triangle(lane), point.primitive(), &query, counters)
-    })
 }
