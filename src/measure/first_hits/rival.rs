@@ -103,7 +103,10 @@ pub(super) fn measure(
     let modes: Vec<EmbreeMode> = EmbreeMode::all().filter(is_wanted).collect();
     let mut contenders = Vec::new();
     for same_build in modes.chunk_by(|one, other| one.scene == other.scene) {
-        let (build, scene) = table.build(same_build[0])?;
+        // The better of two: one that has to ask the system for its memory takes twice as long, and would not be in the rounds.
+        let (first, _) = table.build(same_build[0])?;
+        let (second, scene) = table.build(same_build[0])?;
+        let build = first.min(second);
         for &mode in same_build {
             for order in Order::ALL {
                 let who = Contender { mode, order };

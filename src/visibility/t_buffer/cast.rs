@@ -271,7 +271,7 @@ impl Spans<'_> {
 
     /// Of the columns from first to last those that a row's rays may hit the triangle in.
     #[inline(always)]
-    pub fn of_row(&self, view: &View, of_row: &[f64; 3], [first, last]: [u32; 2]) -> Option<[u32; 2]> {
+    pub fn of_row(&self, view: &View, of_row: &[f64; 4], [first, last]: [u32; 2]) -> Option<[u32; 2]> {
         let (mut low, mut high) = (f64::from(first), f64::from(last));
         for ((side, of_row), per_step) in self.cast.sides.iter().zip(of_row).zip(self.per_step) {
             let at_zero = side.ramp.at(*of_row, view.grid.origin[0]) + side.slack;
