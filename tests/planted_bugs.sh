@@ -276,8 +276,16 @@ plant ray-along-an-edge-by-its-rounding $first_hits/cast.rs \
     corners_on_rays_are_seen_as_by_classical_ray_tracing
 
 plant nearest-by-its-rounding $first_hits/draw.rs \
-    'let around = here.abs() * ALLOWANCE + w.slack;' 'let around = 0.0 * w.slack;' \
+    'let around = here.abs() * ALLOWANCE + slack[3];' 'let around = 0.0 * slack[3];' \
     corners_on_rays_are_seen_as_by_classical_ray_tracing
+
+plant spans-a-column-too-narrow $first_hits/cast.rs \
+    'low: if is_known & (per_step > 0.0) { at - margin }' 'low: if is_known & (per_step > 0.0) { at + 1.0 }' \
+    equals_classical_ray_tracing_in_any_object_order
+
+plant hidden-without-its-last-column $first_hits/draw.rs \
+    '((i % COLUMNS) < columns as usize));' '((i % COLUMNS) + 1 < columns as usize));' \
+    equals_classical_ray_tracing_in_any_object_order
 
 plant hidden-by-its-farthest-corner $first_hits/bins.rs \
     'nearest[i] = larger(larger(a, b), c);' 'nearest[i] = smaller(smaller(a, b), c);' \

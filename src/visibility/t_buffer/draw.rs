@@ -47,6 +47,35 @@ pub(super) fn draw(set: InstructionSet, view: &View, band: &mut Band, cast: &Cas
     }
 }
 
+/// Whether everything in the pixels around a small triangle is nearer than it; of a large one nothing is said.
+#[inline(always)]
+pub(super) fn hides(set: InstructionSet, band: &Band, touched: &Touched) -> bool {
+    let columns = touched.columns[1] - touched.columns[0] + 1;
+    let rows = u32::from(touched.rows[1] - touched.rows[0]) + 1;
+    match (columns, rows) {
+        (0..=4, 0..=4) => hides_all::<4>(set, band, touched, [columns, rows]),
+        (0..=8, 0..=2) => hides_all::<8>(set, band, touched, [columns, rows]),
+        _ => false,
+    }
+}
+
+#[inline(always)]
+fn hides_all<const COLUMNS: usize>(
+    set: InstructionSet,
+    band: &Band,
+    touched: &Touched,
+    [columns, rows]: [u32; 2],
+) -> bool {
+    let first_row = touched.rows_from(band.first_row)[0];
+    let places = places::<COLUMNS>(band, [touched.columns[0], first_row], rows);
+    let least = load::<COLUMNS, _>(&band.least, &places);
+    let mut shows = [0; LANES];
+    for i in 0..LANES {
+        shows[i] = u32::from((least[i] <= touched.nearness) & ((i % COLUMNS) < columns as usize));
+    }
+    bits(set, &shows) == 0
+}
+
 /// A triangle that is being drawn.
 struct Drawing<'a> {
     set: InstructionSet,
@@ -55,14 +84,6 @@ struct Drawing<'a> {
     touched: &'a Touched,
     /// As in [`Run`].
     certainty: bool,
-}
-
-/// What a row knows of a triangle.
-struct Span {
-    /// As [`Drawing::of_row`] makes it.
-    of_row: [f64; 4],
-    /// First and last, if there are any.
-    columns: Option<[u32; 2]>,
 }
 
 impl Drawing<'_> {
@@ -74,83 +95,62 @@ impl Drawing<'_> {
         // As many rows as fill the lanes.
         let rows = (LANES / COLUMNS) as u32;
         while row <= last_row {
-            let of_row = self.of_row(row);
-            self.run::<COLUMNS>(
-                band,
-                &of_row,
-                [first, row],
-                [last - first + 1, rows.min(last_row - row + 1)],
-            );
+            self.run::<COLUMNS>(band, [first, row], [last - first + 1, rows.min(last_row - row + 1)]);
             row += rows;
         }
     }
 
-    /// Draws it row by row, or two rows at once where both are narrow.
+    /// Draws it row by row, or several rows at once where they are narrow.
     #[inline(always)]
     fn wide(&self, band: &mut Band) {
-        let spans = Spans::of(self.cast);
-        let [mut row, last_row] = self.touched.rows_from(band.first_row);
-        let mut here = self.span(&spans, row, last_row);
-        while row <= last_row {
-            let below = self.span(&spans, row + 1, last_row);
-            if let (Some([left, right]), Some([left_below, right_below])) = (here.columns, below.columns) {
-                let (first, last) = (left.min(left_below), right.max(right_below));
-                if last - first < 8 {
-                    self.run::<8>(band, &here.of_row, [first, row], [last - first + 1, 2]);
-                    row += 2;
-                    here = self.span(&spans, row, last_row);
-                    continue;
-                }
+        let [first_row, last_row] = self.touched.rows_from(band.first_row);
+        for from in (first_row..=last_row).step_by(LANES) {
+            let count = (LANES as u32).min(last_row - from + 1);
+            let spans = self.cast.spans(self.touched.columns, from - first_row, count);
+            let mut row = 0;
+            while row < count as usize {
+                row += self.rows(band, &spans, [from, row as u32], count) as usize;
             }
-            let [mut first, last] = here.columns.unwrap_or([1, 0]);
-            while first <= last {
-                let columns = (LANES as u32).min(last - first + 1);
-                self.run::<16>(band, &here.of_row, [first, row], [columns, 1]);
-                first += LANES as u32;
-            }
-            (row, here) = (row + 1, below);
         }
     }
 
-    /// A row, in which nothing is if it is after the last.
+    /// Draws one row or several, and returns how many that were. Rows are said by the first of the spans and how many come
+    /// before.
     #[inline(always)]
-    fn span(&self, spans: &Spans, row: u32, last_row: u32) -> Span {
-        let of_row = self.of_row(row);
-        let columns = match row <= last_row {
-            true => spans.of_row(self.view, &of_row, self.touched.columns),
-            false => None,
-        };
-        Span { of_row, columns }
-    }
-
-    /// What does not change along a row: of the sides, and of the nearness.
-    #[inline(always)]
-    fn of_row(&self, row: u32) -> [f64; 4] {
-        let y = self.view.grid.origin[1] + self.view.grid.step[1] * f64::from(row);
-        let [s, t, u] = &self.cast.sides;
-        [s.ramp.of_row(y), t.ramp.of_row(y), u.ramp.of_row(y), self.cast.nearness.of_row(y)]
+    fn rows(&self, band: &mut Band, spans: &Spans, [from, row]: [u32; 2], count: u32) -> u32 {
+        let place = row as usize;
+        let [first, last] = spans.of::<4>(place);
+        if last - first < 4 {
+            if first <= last {
+                let size = [(last - first + 1) as u32, 4.min(count - row)];
+                self.run::<4>(band, [first as u32, from + row], size);
+            }
+            return 4;
+        }
+        let [first, last] = spans.of::<2>(place);
+        if last - first < 8 {
+            if first <= last {
+                let size = [(last - first + 1) as u32, 2.min(count - row)];
+                self.run::<8>(band, [first as u32, from + row], size);
+            }
+            return 2;
+        }
+        let [mut first, last] = spans.of::<1>(place);
+        while first <= last {
+            let columns = (last - first + 1).min(LANES as i32);
+            self.run::<16>(band, [first as u32, from + row], [columns as u32, 1]);
+            first += LANES as i32;
+        }
+        1
     }
 
     /// Draws what is in so many columns and rows from a pixel on.
     #[inline(always)]
-    fn run<const COLUMNS: usize>(
-        &self,
-        band: &mut Band,
-        of_row: &[f64; 4],
-        [first, row]: [u32; 2],
-        count: [u32; 2],
-    ) {
-        let x = self.view.grid.origin[0] + self.view.grid.step[0] * f64::from(first);
-        let [s, t, u] = &self.cast.sides;
+    fn run<const COLUMNS: usize>(&self, band: &mut Band, [first, row]: [u32; 2], count: [u32; 2]) {
         let run = Run {
             cast: self.cast,
             item: Band::item(self.touched.primitive),
-            starts: [
-                s.ramp.at(of_row[0], x) as f32,
-                t.ramp.at(of_row[1], x) as f32,
-                u.ramp.at(of_row[2], x) as f32,
-                self.cast.nearness.at(of_row[3], x) as f32,
-            ],
+            starts: self.cast.at(self.view, [first, row]),
             count,
             certainty: self.certainty,
         };
@@ -172,21 +172,20 @@ fn sixteen<const COLUMNS: usize>(set: InstructionSet, run: &Run, band: &mut Band
     let Run { cast, item, starts, count, certainty } = *run;
     let places = places::<COLUMNS>(band, pixel, count[1]);
     let least = load::<COLUMNS, _>(&band.least, &places);
-    let [s, t, u] = [&cast.sides[0].ramp, &cast.sides[1].ramp, &cast.sides[2].ramp];
-    let w = &cast.nearness;
+    let Cast { across, down, slack, .. } = cast;
     let columns_and_rows = [count[0] as f32, count[1] as f32];
     let (mut low, mut high) = ([0.0; LANES], [0.0; LANES]);
     let (mut touched, mut may_show, mut inside) = ([0; LANES], [0; LANES], [0; LANES]);
     for i in 0..LANES {
         let (x, y) = ((i % COLUMNS) as f32, (i / COLUMNS) as f32);
-        let a = starts[0] + (s.step[0] * x + s.step[1] * y);
-        let b = starts[1] + (t.step[0] * x + t.step[1] * y);
-        let c = starts[2] + (u.step[0] * x + u.step[1] * y);
+        let a = starts[0] + (across[0] * x + down[0] * y);
+        let b = starts[1] + (across[1] * x + down[1] * y);
+        let c = starts[2] + (across[2] * x + down[2] * y);
         // With NaN, nothing is certain.
-        let is_outside = (a < -s.slack) | (b < -t.slack) | (c < -u.slack);
-        let is_inside = (a > s.slack) & (b > t.slack) & (c > u.slack);
-        let here = starts[3] + (w.step[0] * x + w.step[1] * y);
-        let around = here.abs() * ALLOWANCE + w.slack;
+        let is_outside = (a < -slack[0]) | (b < -slack[1]) | (c < -slack[2]);
+        let is_inside = (a > slack[0]) & (b > slack[1]) & (c > slack[2]);
+        let here = starts[3] + (across[3] * x + down[3] * y);
+        let around = here.abs() * ALLOWANCE + slack[3];
         (low[i], high[i]) = (here - around, here + around);
         let is_touched = !is_outside & (x < columns_and_rows[0]) & (y < columns_and_rows[1]);
         let is_behind = high[i] < least[i];

@@ -4,7 +4,7 @@ use super::band::Band;
 use super::bins::{self, Bins, Touched};
 use super::cast::{Casts, GROUP};
 use super::curved_cast::CurvedCast;
-use super::draw::draw;
+use super::draw::{draw, hides};
 use super::places::Place;
 use super::view::View;
 use crate::geometry::batch::InstructionSet;
@@ -53,10 +53,10 @@ fn draw_sorted_body(set: InstructionSet, view: &View, sorted: &[Touched], band: 
         while count < GROUP && next < sorted.len() {
             group[count] = sorted[next];
             band.fetch(&sorted[next]);
-            count += usize::from(!band.hides(&sorted[next]));
+            count += usize::from(!band.hides(&sorted[next]) && !hides(set, band, &sorted[next]));
             next += 1;
         }
-        let casts = Casts::new(view, &group);
+        let casts = Casts::new(view, band.first_row, &group);
         for (i, touched) in group[..count].iter().enumerate() {
             if let Some(cast) = casts.get(view, i) {
                 draw(set, view, band, &cast, touched);
